@@ -1,0 +1,1 @@
+"""Acausal, equation-based modelling of multi-domain systems, integrated by SUNDIALS IDA."""

@@ -1,0 +1,1 @@
+"""From a structured DAE to kernels that a solver calls."""

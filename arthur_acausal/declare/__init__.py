@@ -1,0 +1,1 @@
+"""Authoring: connectors, components, records, quantities and statements."""

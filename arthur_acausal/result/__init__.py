@@ -1,0 +1,1 @@
+"""Solutions: every variable by its path, with units, tables, files and plots."""

@@ -1,0 +1,1 @@
+"""Consistent initialisation, integration and events."""

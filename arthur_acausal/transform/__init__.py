@@ -1,0 +1,1 @@
+"""Symbolic passes: from flat equations to a structured DAE of index one."""

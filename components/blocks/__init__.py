@@ -1,0 +1,1 @@
+"""Causal signal blocks: sources, gains, filters and controllers."""

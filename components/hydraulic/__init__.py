@@ -1,0 +1,1 @@
+"""Hydraulics: fluids, ports, machines, valves, volumes, lines, sources and sensors."""

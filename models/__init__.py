@@ -1,0 +1,1 @@
+"""Whole systems composed from the component library."""

@@ -1,0 +1,1 @@
+"""Small models, each showing one feature."""
