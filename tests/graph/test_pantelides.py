@@ -1,0 +1,187 @@
+"""Index reduction on literal systems, and the number of differentiations against the signature method."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from arthur_acausal.graph import (
+    StructurallySingular,
+    chains,
+    matching,
+    pantelides,
+    select_dummies,
+    select_states,
+)
+
+# Pendulum: x, y, u, v, T = 0..4; x', y', u', v' = 5..8
+#   x' = u, y' = v, u' = T x, v' = T y - g, x^2 + y^2 = L^2
+PENDULUM = [[5, 2], [6, 3], [7, 4, 0], [8, 4, 1], [0, 1]]
+PENDULUM_DERIVATIVE = [5, 6, 7, 8, -1, -1, -1, -1, -1]
+
+
+def order(derivative: list[int]) -> list[int]:
+    """Return for each element of a chain its place in it."""
+    result = [0] * len(derivative)
+    for index, successor in enumerate(derivative):
+        if successor > index:
+            result[successor] = result[index] + 1
+    return result
+
+
+def test_pendulum_has_index_three() -> None:
+    result = pantelides(PENDULUM, PENDULUM_DERIVATIVE)
+    # as in Pantelides (1988), example 2: the constraint twice, x' = u and y' = v once
+    assert result.equation_derivative == [6, 7, -1, -1, 5, 8, -1, -1, -1]
+    assert result.edges[5] == [5, 6, 0, 1]
+    assert result.derivative[5:7] == [9, 10]
+    assert set(result.edges[6]) == {9, 7, 5, 2}
+    highest = [e for e, successor in enumerate(result.equation_derivative) if successor < 0]
+    assert sorted(result.assignment[e] for e in highest) == [4, 7, 8, 9, 10]
+    assert all(result.assignment[e] == -1 for e in range(9) if e not in highest)
+
+
+def test_pendulum_dummy_derivatives() -> None:
+    result = pantelides(PENDULUM, PENDULUM_DERIVATIVE)
+    selection = select_states(result.edges, result.derivative, result.equation_derivative, [2] * 9)
+    assert len(selection.states) == 2  # one degree of freedom
+    # x wanted, u too: y and v become algebraic, and so does the derivative of der(y)
+    priority = [3, 2, 3, 2, 2, 2, 2, 2, 2]
+    selection = select_states(result.edges, result.derivative, result.equation_derivative, priority)
+    assert selection.states == [0, 2]
+    assert selection.dummies == [6, 8, 9, 10]
+
+
+def test_index_one_needs_no_differentiation() -> None:
+    edges = [[1, 0, 2], [2, 0]]
+    result = pantelides(edges, [1, -1, -1])
+    assert result.edges == edges
+    assert result.equation_derivative == [-1, -1]
+    assert result.assignment == [1, 2]
+
+
+def test_two_inertias_rigidly_coupled() -> None:
+    # w1, w2, tau, w1', w2': J1 w1' = tau, J2 w2' = -tau, w1 = w2
+    result = pantelides([[3, 2], [4, 2], [0, 1]], [3, 4, -1, -1, -1])
+    assert result.equation_derivative == [-1, -1, 3, -1]
+    assert result.edges[3] == [3, 4, 0, 1]
+    assert select_states(
+        result.edges, result.derivative, result.equation_derivative, [2, 3, 2, 2, 2]
+    ).states == [1]
+    assert select_states(
+        result.edges, result.derivative, result.equation_derivative, [3, 2, 2, 2, 2]
+    ).states == [0]
+
+
+def test_derivative_of_an_algebraic_variable_is_appended() -> None:
+    # y = u(t) [known], x' = y', where y' has no equation: y, y', x, x'
+    result = pantelides([[0], [3, 1]], [1, -1, 3, -1])
+    assert result.equation_derivative == [2, -1, -1]
+    assert result.edges[2] == [1, 0]
+
+
+def test_too_many_equations_for_a_variable() -> None:
+    with pytest.raises(StructurallySingular) as caught:
+        pantelides([[0], [0], [1, 2]], [-1, -1, -1])
+    assert caught.value.equations == [0, 1]
+    assert caught.value.variables == [1, 2]
+
+
+def test_singular_although_derivatives_would_match() -> None:
+    # x' = 1, x = 0 and nothing for y: x and x' are one unknown
+    with pytest.raises(StructurallySingular) as caught:
+        pantelides([[1], [0]], [1, -1, -1])
+    assert caught.value.equations == [0, 1]
+    assert caught.value.variables == [2]
+
+
+@pytest.mark.parametrize(
+    ("edges", "equations", "variables"), [([[0]], [], [0, 2]), ([[0], [1], [2]], [0, 1], [])]
+)
+def test_counts_differ(edges: list[list[int]], equations: list[int], variables: list[int]) -> None:
+    edges = [[0, 2]] if len(edges) == 1 else edges
+    with pytest.raises(StructurallySingular) as caught:
+        pantelides(edges, [1, -1, -1])
+    assert (caught.value.equations, caught.value.variables) == (equations, variables)
+
+
+def test_long_chain_of_constraints() -> None:
+    # x[i] = x[i + 1] for all, and J[i] x[i]' = torque[i] - torque[i + 1]
+    n = 2000
+    inertia = [[n + i, 2 * n + i - 1, 2 * n + i] for i in range(n)]
+    inertia[0].remove(2 * n - 1)
+    inertia[-1].remove(3 * n - 1)
+    rigid = [[i, i + 1] for i in range(n - 1)]
+    result = pantelides(inertia + rigid, [*range(n, 2 * n)] + [-1] * (2 * n - 1))
+    assert len(result.edges) == 3 * n - 2
+    selection = select_states(result.edges, result.derivative, result.equation_derivative, [2] * n)
+    assert len(selection.states) == 1
+
+
+def smallest_offsets(sigma: list[list[int | None]]) -> list[int]:
+    """Return how often each equation is differentiated: Pryce (2001), BIT 41, 364-394, algorithm 3.1."""
+    n = len(sigma)
+    best = max(
+        (p for p in itertools.permutations(range(n)) if all(sigma[i][p[i]] is not None for i in range(n))),
+        key=lambda p: sum(sigma[i][p[i]] or 0 for i in range(n)),
+    )
+    c = [0] * n
+    while True:
+        d = [max((s + c[i] for i in range(n) if (s := sigma[i][j]) is not None), default=0) for j in range(n)]
+        new = [d[best[i]] - (sigma[i][best[i]] or 0) for i in range(n)]
+        if new == c:
+            return c
+        c = new
+
+
+@settings(max_examples=200)
+@given(
+    st.integers(1, 5).flatmap(
+        lambda n: st.lists(
+            st.lists(st.sampled_from([None, None, 0, 0, 1, 2]), min_size=n, max_size=n),
+            min_size=n,
+            max_size=n,
+        )
+    )
+)
+def test_differentiates_as_often_as_the_signature_matrix_says(sigma: list[list[int | None]]) -> None:
+    n = len(sigma)
+    highest = [max((s for row in sigma if (s := row[j]) is not None), default=0) for j in range(n)]
+    first = list(itertools.accumulate((h + 1 for h in highest), initial=0))
+    derivative = [v + 1 if v + 1 not in first else -1 for v in range(first[-1])]
+    edges = [[first[j] + s for j in range(n) if (s := row[j]) is not None] for row in sigma]
+    merged = [[j for j in range(n) if row[j] is not None] for row in sigma]
+    if -1 in matching(merged, n):
+        with pytest.raises(StructurallySingular):
+            pantelides(edges, derivative)
+        return
+    result = pantelides(edges, derivative)
+    counts = [0] * n
+    for equation in range(n):
+        successor = result.equation_derivative[equation]
+        while successor >= 0:
+            counts[equation] += 1
+            successor = result.equation_derivative[successor]
+    assert counts == smallest_offsets(sigma)
+    remaining = [e for e, successor in enumerate(result.equation_derivative) if successor < 0]
+    taken = [result.assignment[e] for e in remaining]
+    assert len(set(taken)) == n
+    assert all(
+        v in result.edges[e] and result.derivative[v] < 0 for e, v in zip(remaining, taken, strict=True)
+    )
+    assert sorted({chains(result.derivative)[v] for v in taken}) == sorted(first[:-1])
+    selection = select_states(result.edges, result.derivative, result.equation_derivative, [2] * first[-1])
+    degrees = sum(result.derivative[v] >= 0 for v in range(len(result.derivative)))
+    assert len(selection.dummies) == sum(counts)
+    assert len(selection.states) == degrees - sum(counts)
+
+
+def test_dummies_of_lowest_priority() -> None:
+    assert select_dummies([[0, 1, 2], [1, 2]], 3, [4, 2, 0]) == [1, 2]
+    assert select_dummies([[0, 1], [2]], 3, [2, 0, 4]) == [1, 2]
+    with pytest.raises(StructurallySingular) as caught:
+        select_dummies([[0], [0]], 2, [2, 2])
+    assert len(caught.value.equations) == 1
