@@ -33,8 +33,6 @@ LAYERS = (
 # Libraries that cost a noticeable time to import or open windows, and the layers built upon them. Everybody
 # else imports them inside the function that needs them; so do these layers where they are imported early.
 HEAVY = {
-    "h5netcdf": {"result"},
-    "h5py": {"result"},
     "matplotlib": {"result"},
     "mujoco": {"mujoco"},
     "pandas": {"result"},
