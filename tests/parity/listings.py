@@ -5,11 +5,12 @@ Table 5 the initial state. Nothing here imports the package under test. Names ar
 each line can be held against the printed one; only Matlab's loops over the twelve actuators are written as
 NumPy arrays. A trailing axis of many states may follow every array.
 
-Kept as printed: 15852 gpm a m^3/s; the motor's torque is clamped from above only; sqrt(abs(2*p_d/density)) in
-the relief valve; c_act 10 for actuator 1 and 100 for the others; A_B = 0.75 A_A; A_R 0.0011 m^2; k 1.42e12 N/m;
-equation 6.1 with the pump's flow.
+Kept as printed: 15852 gpm a m^3/s; the motor's torque is clamped from above only; sqrt(abs(2*p_d/density))
+in the relief valve; c_act 10 for actuator 1 and 100 for the others; A_B = 0.75 A_A; A_R 0.0011 m^2;
+k 1.42e12 N/m; equation 6.1 with the pump's flow.
 
-The state is [N (rpm), p_d (Pa), VAS(1,:) (m/s), VAS(2,:) (m), VAS(3,:) (Pa), VAS(4,:) (Pa), RS (m/s, m, Pa, Pa)].
+The state is [N (rpm), p_d (Pa), VAS(1,:) (m/s), VAS(2,:) (m), VAS(3,:) (Pa), VAS(4,:) (Pa),
+RS (m/s, m, Pa, Pa)], 54 numbers.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ N_STATES = 1 + 1 + 4 * N_ACTUATORS + 4
 
 
 def rated_valve_gain(Q: float, I_rated: float, dp_land: float, rho: float) -> float:
-    """Return K_V [m^2/A] of equation 5.36 from a rated flow [m^3/s] at a current [A] and a drop a land [Pa]."""
+    """Return K_V [m^2/A] of 5.36 from a rated flow [m^3/s] at a current [A] and a drop a land [Pa]."""
     return Q / (I_rated * sqrt(2 / rho * dp_land))
 
 
@@ -45,7 +46,7 @@ class Constants:
 
 
 def pump_scaling(Q_req: float, N_0: float) -> tuple[float, float, float]:
-    """6.3.1: displacement [m^3], torque constant [m^3], total inertia [kg m^2] from a flow [gpm] and speed [rpm]."""
+    """6.3.1: D [m^3], torque constant [m^3] and total inertia [kg m^2] from gpm and rpm."""
     eta_v = 0.85
     rho = 7750
     J_motor = 0.0003147
@@ -98,7 +99,7 @@ def relief_valve(p_d: Array, p_c: float, density: float) -> Array:
 def valve_array(
     p_S: Array, p_A: Array, p_B: Array, p_R: Array, rho: float, I: Array, K_V: float
 ) -> tuple[Array, Array, Array, Array]:
-    """6.3.6: port flows Q_A, Q_B [m^3/s] (12 each), total supply and return flow [m^3/s]. K_V is redacted there."""
+    """6.3.6: flows Q_A, Q_B of 12 ports, total supply and return flow [m^3/s]. K_V is redacted there."""
     forward = I >= 0
     Q_A = np.where(
         forward,
@@ -117,7 +118,7 @@ def valve_array(
 
 def actuator_array(VAS: Array, Q_A: Array, Q_B: Array, F_L: Array, beta: float) -> Array:
     """6.3.7: rates of VAS(i) = [nu (m/s); y (m); p_A (Pa); p_B (Pa)]."""
-    # The printed values are the same for the twelve but for c_act(1); a column, so that a trailing axis may follow.
+    # The twelve differ in c_act(1) only; a column, so that a trailing axis may follow.
     c_act = np.full((N_ACTUATORS,) + (1,) * (VAS.ndim - 2), 100.0)
     c_act[0] = 10.0
     m_p = 0.05
@@ -182,7 +183,7 @@ def right_hand_side(state: Array, V: Array | float, I: Array, F_L: Array, given:
     V: motor voltage [V]; I: valve currents [A] (12); F_L: load forces [N] (12), positive against extension.
     """
     N, p_d = state[0], state[1]
-    VAS = state[2:50].reshape((4, N_ACTUATORS) + state.shape[1:])
+    VAS = state[2:50].reshape((4, N_ACTUATORS, *state.shape[1:]))
     RS = state[50:54]
     D, c_L, J_tot = pump_scaling(given.Q_req, given.N_0)
     delta_p = p_d - RS[2]
