@@ -1,0 +1,171 @@
+"""Pictures of solutions over time."""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Iterable, Sequence
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from arthur_acausal.errors import ResultError
+from arthur_acausal.result.atomic import write_atomically
+from arthur_acausal.result.display import display_unit, labelled
+from arthur_acausal.result.interpolate import FloatArray
+from arthur_acausal.units import Unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from arthur_acausal.result.solution import Solution
+
+# Okabe and Ito (2008): told apart by people who see colours differently. With each colour goes a line style,
+# so that a print in grey can be read too.
+PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+STYLES = ("-", "--", "-.", ":")
+STYLE: dict[Any, Any] = {
+    "font.size": 9.0,
+    "axes.grid": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.formatter.useoffset": False,
+    "axes.formatter.limits": (-4, 5),
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+    "legend.fontsize": 8.0,
+    "lines.linewidth": 1.2,
+    "savefig.dpi": 150.0,
+}
+WIDTH, PANEL_HEIGHT, MARGIN_HEIGHT = 9.0, 2.0, 0.9  # inches
+MOST_LINES = 28  # in one panel: as many as there are pairs of colour and style
+MOST_EVENTS = 30  # more lines would hide the curves
+LEGEND_ROWS = 13
+FORMATS = ("png", "pdf", "svg")
+
+
+def plot(
+    solution: Solution, patterns: str | Iterable[str], file: str | os.PathLike[str] | None = None
+) -> Figure:
+    """Draw variables over time, one panel for each unit, and write the picture where a file is given.
+
+    Raises ResultError where a pattern matches nothing, or the file cannot be written.
+    """
+    panels = group(solution, solution.select(patterns))
+    with style():
+        figure, axes = new_figure([PANEL_HEIGHT] * len(panels))
+        for ax, (unit, paths) in zip(axes, panels, strict=True):
+            draw(ax, solution, paths, unit)
+        finish(figure, axes, solution)
+    if file is not None:
+        write(figure, file)
+    return figure
+
+
+def style() -> AbstractContextManager[None]:
+    """The look of all pictures; figures are made and drawn within it."""
+    import matplotlib
+
+    return matplotlib.rc_context(STYLE)
+
+
+def new_figure(heights: Sequence[float]) -> tuple[Figure, list[Axes]]:
+    """Empty panels of these heights [inch] below each other, with one time axis.
+
+    The figure belongs to no window, so that it can be made on any machine and in any thread.
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(WIDTH, MARGIN_HEIGHT + sum(heights)), layout="constrained")
+    axes = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)
+    return figure, list(axes[:, 0])
+
+
+def group(solution: Solution, paths: Sequence[str]) -> list[tuple[Unit, list[str]]]:
+    """Paths by the unit that they are shown in, in the order of their first appearance."""
+    declared = {path: (solution.unit(path), solution.variable(path).display) for path in paths}
+    largest: dict[tuple[str, str], float] = {}
+    for path, key in declared.items():
+        largest[key] = max(largest.get(key, 0.0), magnitude(solution[path]))
+    units = {key: display_unit(*key, value) for key, value in largest.items()}
+    panels: dict[Unit, list[str]] = {}
+    for path, key in declared.items():
+        panels.setdefault(units[key], []).append(path)
+    for unit, members in panels.items():
+        if len(members) > MOST_LINES:
+            raise ResultError(
+                f"{len(members)} variables in {unit.text} are too many for one picture",
+                remedy=f"choose at most {MOST_LINES} of each unit",
+            )
+    return list(panels.items())
+
+
+def magnitude(values: FloatArray) -> float:
+    """Largest absolute value that is finite; 0 where there is none."""
+    return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
+
+
+def draw(
+    ax: Axes,
+    solution: Solution,
+    paths: Sequence[str],
+    unit: Unit,
+    name: str = "",
+    labels: Sequence[str] | None = None,
+) -> None:
+    """Draw variables of one unit into one panel, with a legend beside it.
+
+    ``name`` says at the axis what they are; without it their description or last name does.
+    """
+    for index, (path, label) in enumerate(zip(paths, labels or paths, strict=True)):
+        ax.plot(
+            solution.t,
+            unit.from_si(solution[path]),
+            color=PALETTE[index % len(PALETTE)],
+            linestyle=STYLES[index % len(STYLES)],
+            label=label,
+        )
+    ax.set_ylabel(labelled(name or common_name(solution, paths), unit.text))
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), ncols=1 + (len(paths) - 1) // LEGEND_ROWS)
+
+
+def common_name(solution: Solution, paths: Sequence[str]) -> str:
+    """What all these variables are: the description or the last part of the path that they share."""
+    described = {solution.description(path) for path in paths}
+    for names in (described, {path.rpartition(".")[2] for path in paths}):
+        if len(names) == 1 and names != {""}:
+            return names.pop()
+    return ""
+
+
+def finish(figure: Figure, axes: Sequence[Axes], solution: Solution) -> None:
+    """Title, time axis, and a thin line at each event where they are few."""
+    figure.suptitle(solution.run.description or solution.model, x=0.01, ha="left", fontsize=11.0)
+    figure.align_ylabels(list(axes))
+    axes[-1].set_xlabel("time [s]")
+    span = solution.t[0], solution.t[-1]
+    if span[0] < span[1]:
+        axes[-1].set_xlim(*span)
+    times = sorted({event.time for event in solution.events})
+    for ax in axes:
+        for time in times if len(times) <= MOST_EVENTS else ():
+            ax.axvline(time, color="#999999", linewidth=0.5, zorder=0.5)
+
+
+def write(figure: Figure, file: str | os.PathLike[str]) -> None:
+    """Write a picture; its format follows from the name."""
+    kind = Path(file).suffix.lower().removeprefix(".")
+    if kind not in FORMATS:
+        raise ResultError(
+            f"cannot write {file}",
+            cause=f"pictures are not written as {kind!r}" if kind else "its name has no ending",
+            remedy=f"end the name in {', '.join('.' + known for known in FORMATS)}",
+        )
+    buffer = io.BytesIO()
+    with style():
+        figure.savefig(buffer, format=kind)
+    write_atomically(file, buffer.getvalue())
