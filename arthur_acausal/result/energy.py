@@ -24,8 +24,8 @@ class Energy:
     losses_J : what was turned into heat, by cause.
     work_J : what was delivered to the loads.
     stored_J : by how much the energy inside grew.
-    closure : (input - losses - work - stored) / input: 0 where the model conserves energy and the run is exact.
-        Without input, relative to the sum of all terms' magnitudes.
+    closure : (input - losses - work - stored) / input, 0 where the model conserves energy and the run is
+        exact. Without input, relative to the sum of all terms' magnitudes.
     """
 
     input_J: float
@@ -42,9 +42,9 @@ class Energy:
 def audit(solution: Solution) -> Energy:
     """Add up the terms that the model names.
 
-    ``solution.run.audit`` maps "input", "work" and "stored" to lists of paths and "losses" to a mapping of causes
-    to such lists. A path is of an energy in J, of which the growth counts, or of a power in W, which is
-    integrated over the stored times; a minus sign before it turns its sign. Patterns such as ``valves[*].loss_W``
+    ``solution.run.audit`` maps "input", "work" and "stored" to lists of paths and "losses" to a mapping of
+    causes to such lists. A path is of an energy in J, of which the growth counts, or of a power in W, which is
+    integrated over the stored times; a minus sign before it turns its sign. Patterns such as ``valves[*].E``
     are allowed.
     """
     terms = solution.run.audit
