@@ -68,10 +68,10 @@ def shaft(V: SX, w: SX, dp: SX) -> tuple[SX, SX]:
 def relief_flow(p_d: SX, p_R: SX) -> SX:
     """5.22 to 5.28 [m^3/s], cracking at 20.68 MPa."""
     k, d, alpha = 5.16e4, 6.35e-3, 2 * pi / 3
-    x = casadi.fmax(pi * d**2 / (4 * k) * (p_d - 20.68e6), 0)
+    x_max = d / sin(alpha) * (sqrt(1 + cos(alpha / 2)) - 1)
+    x = casadi.fmin(casadi.fmax(pi * d**2 / (4 * k) * (p_d - 20.68e6), 0), x_max)
     area = pi * (d + x * sin(alpha / 2) * cos(alpha / 2)) * x * sin(alpha / 2)
-    dp = p_d - p_R
-    return 0.78 * casadi.fmin(area, pi * d**2 / 4) * sqrt(2 / RHO_0) * turbulent(dp, 1e3)
+    return 0.78 * area * sqrt(2 / RHO_0) * turbulent(p_d - p_R, 1e4)
 
 
 def valve_flows(I: SX, p_S: SX, p_R: SX, p_A: SX, p_B: SX) -> tuple[SX, SX]:
@@ -87,7 +87,7 @@ def cylinder(v: SX, y: SX, p_A: SX, p_B: SX, Q_A: SX, Q_B: SX, F: SX) -> tuple[S
     m, c, k, y_max = 0.05, 10.0, 1.436e6, 0.035
     A_A, A_B, V_0 = 7.13e-5, 5.35e-5, 6.5e-7
     pressure = A_A * p_A - A_B * p_B
-    friction = 0.05 * casadi.fabs(pressure) * casadi.tanh(v / 1e-3)
+    friction = 0.05 * casadi.fabs(pressure) * casadi.tanh(v / 5e-3)
     stop = -k * (casadi.fmin(y + y_max, 0) + casadi.fmax(y - y_max, 0))
     dv = (pressure - friction - c * v - F + stop) / m
     dp_A = BETA / (V_0 + A_A * (y + y_max)) * (Q_A / compression(p_A) - A_A * v)

@@ -1,0 +1,198 @@
+"""The default powertrain with the demo's inputs: translation and one simulated second, beside other ways.
+
+    python -m benchmarks.powertrain [--json]
+
+Each part runs in processes of its own: translation with an empty and with a filled cache (imports excluded);
+the race against CasADi's IDAS (see race.py); explicit Euler and Runge-Kutta 4 compiled from C (explicit.py).
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import statistics
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import asdict
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from benchmarks.measure import fresh_json, load_average, parser, show
+
+STOP_TIME = 1.0  # [s]
+INTERVALS = 1000
+TOLERANCES = {"1e-4": 1e-4, "1e-6": 1e-6}
+TRANSLATIONS = 3
+RUNS = 7
+EULER_GUESS, RK4_GUESS = 0.4e-6, 4e-6  # [s], where the search for the largest stable step starts
+
+
+def translate_once() -> dict[str, Any]:
+    """Translate in this process, whatever the cache holds; imports come before the clock starts."""
+    import casadi  # noqa: F401
+    import scipy.sparse.linalg  # noqa: F401
+    import sksundae.ida  # noqa: F401
+
+    from arthur_acausal import translate
+    from arthur_acausal.models.arthur.powertrain import Powertrain
+
+    begin = time.perf_counter()
+    translate(Powertrain())
+    return {"translate_s": time.perf_counter() - begin}
+
+
+def race() -> dict[str, Any]:
+    """Run ours and IDAS in turns at each tolerance; return the figures of both by key and tolerance."""
+    from arthur_acausal import translate
+    from arthur_acausal.models.arthur.demo import demo_inputs
+    from arthur_acausal.models.arthur.powertrain import Powertrain
+    from benchmarks.powertrain_byhand import flat, trot
+    from benchmarks.race import REFERENCE_RTOL, Idas, alternate, error, fastest
+
+    grid = np.linspace(0.0, STOP_TIME, INTERVALS + 1)
+    equations = flat(trot)
+    translation = translate(Powertrain())
+    inputs = demo_inputs()
+    reference = Idas(equations, grid, REFERENCE_RTOL).run()
+    rows: dict[str, dict[str, Any]] = {}
+    for label, rtol in TOLERANCES.items():
+        ours = partial(translation.simulate, STOP_TIME, rtol=rtol, intervals=INTERVALS, inputs=inputs)
+        solver, idas = fastest(equations, grid, rtol)
+        jit_solver, idas_jit = fastest(equations, grid, rtol, jit=True)
+        mine, theirs, theirs_jit = alternate([ours, idas.run, idas_jit.run], RUNS)
+        solution = ours()
+        statistics = solution.statistics
+        rows[label] = {
+            "simulate_s": mine.best,
+            "simulate_median_s": mine.median,
+            "idas_s": theirs.best,
+            "idas_median_s": theirs.median,
+            "idas_jit_s": theirs_jit.best,
+            "ratio_to_idas": mine.best / theirs.best,
+            "ratio_to_idas_jit": mine.best / theirs_jit.best,
+            "idas_linear_solver": solver,
+            "idas_jit_linear_solver": jit_solver,
+            "us_per_residual": statistics.us_per_residual_call,
+            "steps": statistics.steps,
+            "idas_steps": idas.steps,
+            "residual_calls": statistics.residual_evaluations,
+            "error": asdict(error(states_on(grid, solution, equations.paths), reference, equations.paths)),
+            "idas_error": asdict(error(idas.run(), reference, equations.paths)),
+        }
+    figures: dict[str, Any] = {key: {label: row[key] for label, row in rows.items()} for key in rows["1e-4"]}
+    return {"us_per_residual_call": figures.pop("us_per_residual")["1e-6"], **figures}
+
+
+def explicit() -> dict[str, Any]:
+    """Find the largest stable steps of the two explicit methods in C, and what a second costs with them."""
+    from benchmarks.explicit import compiled, largest_stable
+    from benchmarks.powertrain_byhand import flat, trot
+    from benchmarks.race import Idas
+
+    equations = flat(trot)
+    grid = np.linspace(0.0, STOP_TIME, INTERVALS + 1)
+    reference = Idas(equations, grid, 1e-9).run()
+    with compiled(equations, reference[:, -1], np.ptp(reference, axis=1), STOP_TIME) as program:
+        euler = largest_stable(program, "euler", EULER_GUESS)
+        rk4 = largest_stable(program, "rk4", RK4_GUESS)
+    return {
+        "euler_s": euler.wall_s,
+        "euler_step_s": euler.step_s,
+        "rk4_s": rk4.wall_s,
+        "rk4_step_s": rk4.step_s,
+    }
+
+
+PARTS: dict[str, Callable[[], dict[str, Any]]] = {
+    "translate": translate_once,
+    "race": race,
+    "explicit": explicit,
+}
+
+
+def translation_times() -> dict[str, Any]:
+    """Return the best of several translations, cache empty and filled, each in a new process [s]."""
+    command = ["-m", "benchmarks.powertrain", "--part", "translate"]
+    cold, cached = [], []
+    for _ in range(TRANSLATIONS):
+        with tempfile.TemporaryDirectory() as cache:
+            for times in (cold, cached):
+                times.append(fresh_json(command, {"ARTHUR_CACHE_DIR": cache})["translate_s"])
+    return {
+        "translate_cold_s": min(cold),
+        "translate_cold_median_s": statistics.median(cold),
+        "translate_cached_s": min(cached),
+    }
+
+
+def measure() -> dict[str, Any]:
+    """Run all parts and gather their figures."""
+    figures = {"load_average": load_average(), **translation_times()}
+    figures |= fresh_json(["-m", "benchmarks.powertrain", "--part", "race"])
+    if shutil.which("cc") or shutil.which("gcc"):
+        figures |= fresh_json(["-m", "benchmarks.powertrain", "--part", "explicit"])
+    else:
+        figures |= {"euler_s": None, "rk4_s": None}
+    return figures
+
+
+def race_rows(figures: dict[str, Any]) -> list[list[str]]:
+    """Return the table of the race: ours, and IDAS by hand, at each tolerance."""
+    rows = []
+    for label in TOLERANCES:
+        for who, seconds, prefix in (("ours", "simulate_s", ""), ("idas by hand", "idas_s", "idas_")):
+            worth = figures[f"{prefix}error"][label]
+            counts = [f"{1e3 * figures[seconds][label]:.1f}", str(figures[f"{prefix}steps"][label])]
+            rows.append(
+                [f"{who}, {label}", *counts, f"{worth['worst']:.1e}", worth["path"], f"{worth['rms']:.1e}"]
+            )
+        compiled = f"{1e3 * figures['idas_jit_s'][label]:.1f}"
+        rows.append([f"idas by hand, compiled, {label}", compiled, "", "", "", ""])
+    return rows
+
+
+def report(figures: dict[str, Any]) -> None:
+    """Print the tables."""
+    show(
+        "Translation of the 12-actuator powertrain, new process, best of 3",
+        ["what", "s", "required, s"],
+        [
+            ["empty cache, C compiler included", f"{figures['translate_cold_s']:.2f}", "1.5"],
+            ["cached", f"{figures['translate_cached_s']:.2f}", "0.3"],
+        ],
+    )
+    heads = ["who, rtol", "ms", "steps", "worst error / range", "of", "rms"]
+    show("One simulated second, best of 7", heads, race_rows(figures))
+    for label in TOLERANCES:
+        ratio, compiled = figures["ratio_to_idas"][label], figures["ratio_to_idas_jit"][label]
+        print(
+            f"rtol {label}: {ratio:.2f} times idas (required 3), {compiled:.2f} times idas compiled; "
+            f"solvers {figures['idas_linear_solver'][label]}, {figures['idas_jit_linear_solver'][label]}"
+        )
+    print(f"{figures['us_per_residual_call']:.1f} us a residual call, all that IDA does included")
+    for name, key in (("explicit Euler", "euler"), ("Runge-Kutta 4", "rk4")):
+        if figures[f"{key}_s"] is not None:
+            step = 1e6 * figures[f"{key}_step_s"]
+            print(f"{name} in C: {figures[f'{key}_s']:.2f} s at its largest stable step of {step:.2f} us")
+
+
+def main() -> None:
+    """Measure and print."""
+    command_line = parser(__doc__.partition("\n")[0])
+    command_line.add_argument("--part", choices=sorted(PARTS), help="one part, in this process, as JSON")
+    arguments = command_line.parse_args()
+    if arguments.part:
+        print(json.dumps(PARTS[arguments.part]()))
+        return
+    figures = measure()
+    if arguments.json:
+        print(json.dumps(figures))
+    else:
+        report(figures)
+
+
+if __name__ == "__main__":
+    main()
