@@ -1,0 +1,164 @@
+"""Which initial conditions to use: all that are given if they fit, start values for states that have none.
+
+n unknowns y and the derivatives of the s states stand against n equations F = 0; s initial conditions must come in
+addition. A maximum matching, extended in order of preference, finds which fit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from arthur_acausal.graph import dulmage_mendelsohn, matching
+from arthur_acausal.solve.consistent import Entries, Index
+from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator
+
+Edges = list[list[int]]
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """The chosen initial conditions.
+
+    Attributes
+    ----------
+    pinned : states that keep the value y has (their start value, or what their own condition says).
+    rows : rows of h to solve together with F.
+    assumed : states among `pinned` that have no initial condition: their start value is taken.
+    surplus : rows of h that have no unknown left; they must hold all the same.
+    conflict : for messages, rows of F and of h (from n on) that determine too much where there is surplus.
+    undetermined : y and y' (from n on) that nothing determines; empty if all is well.
+    """
+
+    pinned: Index
+    rows: Index
+    assumed: Index
+    surplus: list[int] = field(default_factory=list)
+    conflict: list[int] = field(default_factory=list)
+    undetermined: list[int] = field(default_factory=list)
+
+
+def choose(dae: DAE, evaluator: Evaluator, attributes: Attributes, given: set[int]) -> Conditions:
+    """Choose initial conditions; the evaluator holds the start values, `given` are states set for this run.
+
+    Conditions that say the value of one state each are solved here at once: y gets that value.
+    """
+    simple = _simple(dae, given)
+    rest = [k for k in range(dae.n_init) if k not in simple]
+    replaced = {k for k, state in simple.items() if state in given}
+    _solve_simple(dae, evaluator, {k: state for k, state in simple.items() if k not in replaced})
+    states = set(np.flatnonzero(dae.differential).tolist())
+    pinned = set(simple.values()) | given & states
+    if not rest:
+        assumed = states - pinned
+        return Conditions(_index(states), _index(()), _index(assumed))
+    return _match(dae, evaluator, attributes, pinned, rest, simple)
+
+
+def _simple(dae: DAE, given: set[int]) -> dict[int, int]:
+    """Rows of h in which one state stands alone, each state once."""
+    if not dae.n_init:
+        return {}
+    colind, row = np.asarray(dae.init_sparsity.colind), np.asarray(dae.init_sparsity.row)
+    column = np.repeat(np.arange(colind.size - 1), np.diff(colind))
+    alone = np.bincount(row, minlength=dae.n_init) == 1
+    found: dict[int, int] = {}
+    taken: set[int] = set()
+    for k, j in zip(row.tolist(), column.tolist(), strict=True):
+        if alone[k] and j < dae.n and dae.differential[j] and (j not in taken or j in given):
+            found[k] = j
+            taken.add(j)
+    return found
+
+
+def _solve_simple(dae: DAE, evaluator: Evaluator, simple: dict[int, int]) -> None:
+    """Give y the values that the conditions say: they are linear in their one state (a Newton step is exact)."""
+    if not simple:
+        return
+    row = np.asarray(dae.init_sparsity.row)
+    slopes = np.zeros(dae.n_init)
+    for _ in range(3):  # once suffices for y - value; more for what a user may write
+        slopes[row] = evaluator.initial_jacobian()  # right for rows of one entry
+        values = evaluator.initial()
+        for k, j in simple.items():
+            if slopes[k] != 0.0 and values[k] != 0.0:
+                evaluator.y[j] -= values[k] / slopes[k]
+
+
+def _match(
+    dae: DAE,
+    evaluator: Evaluator,
+    attributes: Attributes,
+    pinned: set[int],
+    rest: list[int],
+    simple: dict[int, int],
+) -> Conditions:
+    n = dae.n
+    equations, initial = _edges(dae, evaluator, pinned)
+    edges = equations + [initial[k] for k in rest]
+    assignment = matching(equations, 2 * n)
+    assignment = matching(edges, 2 * n, assignment)
+    free = [j for j in np.flatnonzero(dae.differential).tolist() if j not in pinned]
+    candidates: list[int] = []
+    for wanted in (True, False):  # states whose start was given come first
+        batch = [j for j in free if bool(attributes.start_given[j]) is wanted]
+        edges += [[j] for j in batch]
+        candidates += batch
+        assignment = matching(edges, 2 * n, assignment)
+    assumed = [j for j, v in zip(candidates, assignment[n + len(rest) :], strict=True) if v >= 0]
+    chosen = [k for k, v in zip(rest, assignment[n:], strict=False) if v >= 0]
+    surplus = [k for k, v in zip(rest, assignment[n:], strict=False) if v < 0]
+    conflict: list[int] = []
+    if surplus:
+        part = dulmage_mendelsohn(edges[: n + len(rest)], 2 * n)
+        conflict = [i if i < n else n + rest[i - n] for i in part.over_equations]
+        conflict += [n + k for k in _pinning(dae, conflict, simple)]
+    unknown = set(range(n)) - pinned | {n + j for j in np.flatnonzero(dae.differential).tolist()}
+    undetermined = sorted(unknown - set(assignment))
+    return Conditions(
+        _index(pinned.union(assumed)), _index(chosen), _index(assumed), surplus, conflict, undetermined
+    )
+
+
+def _pinning(dae: DAE, conflict: list[int], simple: dict[int, int]) -> list[int]:
+    """The conditions that say the values of the pinned states in the conflicting rows."""
+    entries = Entries.of(dae)
+    columns = set(entries.column[np.isin(entries.row, conflict)].tolist())
+    return [k for k, state in simple.items() if state in columns]
+
+
+def _edges(dae: DAE, evaluator: Evaluator, pinned: set[int]) -> tuple[Edges, Edges]:
+    """Unknowns in each row of F and of h: y' and algebraic variables first, states last, pinned ones not at all."""
+    n = dae.n
+    entries = Entries.of(dae)
+    present = _present(dae, evaluator, entries.row.size)
+    edges: Edges = [[] for _ in range(n + dae.n_init)]
+    state = np.concatenate([dae.differential, np.zeros(n, dtype=bool)])
+    order = np.lexsort((state[entries.column], entries.row))
+    for k in order[present[order]].tolist():
+        column = int(entries.column[k])
+        if column not in pinned:
+            edges[int(entries.row[k])].append(column)
+    return edges[:n], edges[n:]
+
+
+def _present(dae: DAE, evaluator: Evaluator, size: int) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Entries that are really there: the two parts of the Jacobian share one pattern, each with zeros of its own.
+
+    Found by evaluation at the start and at two points nearby, since an entry may vanish at one point by chance.
+    """
+    random = np.random.default_rng(0)
+    y, yp = evaluator.y.copy(), evaluator.yp.copy()
+    nonzero = np.zeros(2 * dae.sparsity.row.size, dtype=bool)
+    for spread in (0.0, 1e-3, 1e-2):
+        evaluator.y[:] = y + spread * random.random(dae.n) * (np.abs(y) + 1.0)
+        evaluator.yp[:] = yp + spread * random.random(dae.n)
+        values = np.concatenate([evaluator.jacobian_y().copy(), evaluator.jacobian_yp()])
+        nonzero |= values != 0.0
+    evaluator.y[:], evaluator.yp[:] = y, yp
+    return np.concatenate([nonzero, np.ones(size - nonzero.size, dtype=bool)])
+
+
+def _index(values: set[int] | list[int] | tuple[()]) -> Index:
+    return np.array(sorted(values), dtype=np.intp)

@@ -1,0 +1,191 @@
+"""The engine: SUNDIALS IDA through scikit-sundae, one stretch between two events at a time.
+
+`IDA.solve` of the binding runs a whole stretch in compiled code and interpolates to the output times itself; step by
+step, each output would cost 20 microseconds of Python more. Hindmarsh et al. (2005), ACM TOMS 31, 363-396.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+import sys
+import warnings
+from dataclasses import dataclass
+from typing import Any, Literal, TextIO
+
+import numpy as np
+
+from arthur_acausal.solve.callbacks import Monitor, Roots, jacobian_callback, residual_callback
+from arthur_acausal.solve.inputs import Inputs
+from arthur_acausal.solve.options import SolverOptions
+from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray
+
+DENSE_UP_TO = 200  # unknowns; above, the sparse solver is faster
+ROOT_RETURN = 2
+
+End = Literal["reached", "root", "failed", "halted"]
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """What one call of the engine computed.
+
+    Attributes
+    ----------
+    t, y, yp : (k,), (k, n), (k, n): the requested times after the start that were reached, and at the end the time
+        of a root or the last time that a failing integration reached.
+    end : "reached" the last time, "root" found, "failed", or "halted" by the monitor.
+    directions : of a root: for each of the engine's relations +1 became true, -1 became false, 0 unchanged.
+    flag, message : what IDA returned and printed.
+    """
+
+    t: FloatArray
+    y: FloatArray
+    yp: FloatArray
+    end: End
+    directions: Any
+    flag: int
+    message: str
+
+
+class Ida:
+    """IDA with everything set but the initial values; `run` starts it anew from consistent ones.
+
+    The binding fixes the first step when IDA's memory is set up, so one IDA object is kept for each power of four
+    that is asked for: setting up costs 0.3 ms, starting a kept one anew a tenth of it.
+    """
+
+    def __init__(
+        self,
+        dae: DAE,
+        evaluator: Evaluator,
+        inputs: Inputs,
+        roots: Roots,
+        monitor: Monitor,
+        atol: FloatArray,
+        options: SolverOptions,
+        max_step: float,
+    ) -> None:
+        self.linear_solver = _linear_solver(dae.n, options)
+        self._n = dae.n
+        self._roots, self._monitor = roots, monitor
+        self._eventsfn: Any = roots.callback() if roots.index.size else None
+        self._residual = residual_callback(evaluator, inputs, monitor)
+        self._settings: dict[str, Any] = {
+            "rtol": options.rtol,
+            "atol": atol if dae.n else 1.0,
+            "linsolver": self.linear_solver,
+            "algebraic_idx": np.flatnonzero(~dae.differential).tolist() or None,
+            "max_order": options.max_order,
+            "max_num_steps": options.max_steps,
+            "max_step": max_step,
+            "jacfn": jacobian_callback(dae, evaluator, inputs, monitor, self.linear_solver == "dense"),
+        }
+        if self.linear_solver == "sparse":
+            self._settings |= {"sparsity": _pattern(dae), "nthreads": 1}
+        if self._eventsfn is not None:
+            self._settings |= {"eventsfn": self._eventsfn, "num_events": int(roots.index.size)}
+        self._engines: dict[float, Any] = {}
+
+    def run(
+        self,
+        times: FloatArray,
+        y: FloatArray,
+        yp: FloatArray,
+        first_step: float | None,
+        onestep: bool = False,
+    ) -> Stretch:
+        """Integrate from (times[0], y, yp) over the later times; with `onestep` return IDA's own steps instead."""
+        engine = self._engine(first_step)
+        self._monitor.restart()
+        start = times[0]
+        inserted = len(times) == 2 and not onestep
+        if inserted:  # the binding takes two times as an order to return its own steps
+            times = np.array([start, 0.5 * (start + times[1]), times[1]])
+        elif onestep:
+            times = times[[0, -1]]
+        if not self._n:
+            y = yp = np.zeros(1)
+        with _Capture() as printed:
+            result = engine.solve(times, y, yp)
+        return self._stretch(result, start, inserted, printed.text())
+
+    def _stretch(self, result: Any, start: float, inserted: bool, printed: str) -> Stretch:
+        flag = int(result.status)
+        end: End = "failed" if flag < 0 else "root" if flag == ROOT_RETURN else "reached"
+        if self._monitor.halted:
+            end = "halted"
+        directions = None
+        if self._eventsfn is not None:
+            if end == "root":
+                directions = result.i_events[-1]
+            for found in (self._eventsfn._i, self._eventsfn._t, self._eventsfn._y, self._eventsfn._yp):
+                found.clear()  # the binding would keep and copy the events of all starts
+            self._eventsfn._i_cnt[:] = 0
+        first = 2 if inserted and len(result.t) > 2 else 1
+        if len(result.t) > first and result.t[-1] <= start:  # failed in the first step
+            first = len(result.t)
+        keep = slice(first, None)
+        return Stretch(
+            result.t[keep],
+            result.y[keep, : self._n],
+            result.yp[keep, : self._n],
+            end,
+            directions,
+            flag,
+            printed or str(result.message),
+        )
+
+    def _engine(self, first_step: float | None) -> Any:
+        key = 0.0 if first_step is None else 4.0 ** math.floor(math.log(first_step, 4.0))
+        if key not in self._engines:
+            from sksundae.ida import IDA
+
+            with warnings.catch_warnings():
+                # "sparsity ignored in favor of jacfn": it gives the pattern of jacfn's values here
+                warnings.simplefilter("ignore")
+                self._engines[key] = IDA(self._residual, first_step=key, **self._settings)
+        return self._engines[key]
+
+
+def _linear_solver(n: int, options: SolverOptions) -> str:
+    if options.linear_solver != "auto" and n:
+        return options.linear_solver
+    return "dense" if n <= DENSE_UP_TO else "sparse"
+
+
+def _pattern(dae: DAE) -> Any:
+    from scipy.sparse import csc_matrix
+
+    colind, row = np.asarray(dae.sparsity.colind, np.int32), np.asarray(dae.sparsity.row, np.int32)
+    return csc_matrix((np.ones(row.size), row, colind), shape=(dae.n, dae.n))
+
+
+class _Capture(io.TextIOBase):
+    """Keeps IDA's messages, which the binding prints, from standard output; lets everything else through."""
+
+    _PATTERN = re.compile(r"^\n?\[IDA|^\n?\[SUN")
+
+    def __enter__(self) -> _Capture:
+        self._parts: list[str] = []
+        self._ours = False
+        self._before: TextIO = sys.stdout
+        sys.stdout = self
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        sys.stdout = self._before
+
+    def write(self, text: str) -> int:
+        if self._PATTERN.match(text) or (self._ours and text == "\n"):
+            self._ours = text != "\n"
+            self._parts.append(text)
+            return len(text)
+        return self._before.write(text)
+
+    def flush(self) -> None:
+        self._before.flush()
+
+    def text(self) -> str:
+        return " ".join("".join(self._parts).split())

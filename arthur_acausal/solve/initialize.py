@@ -1,0 +1,197 @@
+"""Consistent values at the start of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from arthur_acausal.errors import InitializationError, UsageError, nearest
+from arthur_acausal.solve.conditions import Conditions, choose
+from arthur_acausal.solve.consistent import ConsistentSystem
+from arthur_acausal.solve.diagnosis import listed, null_vectors, scaled_rows
+from arthur_acausal.solve.modes import Modes
+from arthur_acausal.solve.newton import Solved
+from arthur_acausal.solve.options import SolverOptions
+from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator, FloatArray
+
+CONSISTENT = 1e-6  # scaled residual up to which a surplus initial condition counts as fulfilled
+
+
+@dataclass(frozen=True, slots=True)
+class Initialized:
+    """What the initialisation did; the values themselves are in the evaluator."""
+
+    iterations: int
+    messages: list[str]
+
+
+def initialize(
+    dae: DAE,
+    evaluator: Evaluator,
+    attributes: Attributes,
+    modes: Modes,
+    options: SolverOptions,
+    start: Mapping[str, float] | None = None,
+) -> Initialized:
+    """Find y, y', z and the relations' modes that fulfil all equations and initial conditions at evaluator.t.
+
+    `start` overrides start values by path; a state that stands there keeps that value.
+    Raises InitializationError, naming equations and unknowns.
+    """
+    given = _start_values(dae, evaluator, attributes, start or {})
+    modes.update()
+    conditions = choose(dae, evaluator, attributes, given)
+    if conditions.undetermined:
+        raise _undetermined(dae, conditions)
+    free = np.setdiff1d(np.arange(dae.n), conditions.pinned)
+    system = ConsistentSystem(dae, evaluator, attributes, free, conditions.rows)
+    iterations = 0
+    for _ in range(options.max_event_iterations):
+        solved = system.solve(options.newton_tolerance, options.newton_iterations)
+        iterations += solved.iterations
+        if solved.reason:
+            raise failure(dae, evaluator, system, solved)
+        changed = modes.assign_discrete() | modes.update()
+        if not changed:
+            break
+    else:
+        raise InitializationError(
+            f"the relations do not settle in {options.max_event_iterations} iterations: {modes.last_changed()}",
+            remedy="give start values nearer to the solution",
+        )
+    modes.settle()
+    _check_surplus(dae, evaluator, attributes, conditions)
+    return Initialized(iterations, _notices(dae, attributes, evaluator, conditions))
+
+
+def _start_values(
+    dae: DAE, evaluator: Evaluator, attributes: Attributes, start: Mapping[str, float]
+) -> set[int]:
+    """Fill the evaluator with start values; the states among the overridden ones."""
+    evaluator.y[:] = attributes.start
+    evaluator.yp[:] = 0.0
+    evaluator.z[:] = dae.z_start
+    place = {path: k for k, path in enumerate(dae.y_paths)}
+    discrete = {path: k for k, path in enumerate(dae.z_paths)}
+    given = set()
+    for path, value in start.items():
+        if path in place:
+            evaluator.y[place[path]] = value
+            given.add(place[path])
+        elif path in discrete:
+            evaluator.z[discrete[path]] = value
+        else:
+            raise UsageError(
+                f"there is no state, algebraic or discrete variable {path!r} to give a start value",
+                remedy=nearest(path, [*place, *discrete]),
+            )
+    evaluator.zp[:] = evaluator.z
+    return {j for j in given if dae.differential[j]}
+
+
+def unknown_names(dae: DAE, system: ConsistentSystem) -> list[str]:
+    """Names of the system's unknowns, in order."""
+    paths = dae.y_paths
+    return [paths[j] for j in system.free] + [f"der({paths[j]})" for j in system.states]
+
+
+def row_names(dae: DAE, system: ConsistentSystem) -> list[str]:
+    """Names of the system's rows, in order."""
+    return [*dae.row_labels, *(dae.init_labels[k] for k in system.conditions)]
+
+
+def failure(dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: Solved) -> InitializationError:
+    """What to tell the user when the equations at one instant are not solved."""
+    rows = row_names(dae, system)
+    residual = system.residual(system.unknowns()).copy()
+    bad = np.flatnonzero(~np.isfinite(residual))
+    if solved.reason == "not finite" or bad.size:
+        return InitializationError(
+            f"at t = {evaluator.t[0]:g} s these equations have no finite value: {listed([rows[i] for i in bad])}",
+            cause=f"the start values are {_values(dae, evaluator, system)}",
+            remedy="give start values inside the range of the equations",
+        )
+    matrix, scale = system.matrix(), system.scale()
+    scale = np.maximum(scale, np.abs(system.unknowns()))
+    if solved.reason == "singular":
+        unknowns, equations = null_vectors(matrix, scale)
+        names = unknown_names(dae, system)
+        return InitializationError(
+            f"singular Jacobian at t = {evaluator.t[0]:g} s: the equations do not determine "
+            f"{listed([names[j] for j in unknowns])}",
+            cause=f"these equations depend on each other: {listed([rows[i] for i in equations], '; ')}",
+            remedy="give the missing relation or initial condition, or remove what is said twice",
+        )
+    scaled = scaled_rows(matrix, residual, scale)
+    worst = np.argsort(-np.abs(scaled), kind="stable")[:5]
+    told = "; ".join(f"{rows[i]}: {residual[i]:.3g} (scaled {scaled[i]:.1g})" for i in worst)
+    return InitializationError(
+        f"no consistent values at t = {evaluator.t[0]:g} s after {solved.iterations} Newton iterations "
+        f"({solved.reason}); largest residuals: {told}",
+        remedy="give start values nearer to the solution",
+    )
+
+
+def _values(dae: DAE, evaluator: Evaluator, system: ConsistentSystem) -> str:
+    return listed([f"{dae.y_paths[j]} = {evaluator.y[j]:.6g}" for j in system.free])
+
+
+def _undetermined(dae: DAE, conditions: Conditions) -> InitializationError:
+    n = dae.n
+    names = [dae.y_paths[j] if j < n else f"der({dae.y_paths[j - n]})" for j in conditions.undetermined]
+    return InitializationError(
+        f"the equations and initial conditions determine nothing about {listed(names)}",
+        cause=_conflict(dae, conditions) if conditions.conflict else "",
+        remedy="give an initial condition for it, or remove one that says too much elsewhere",
+    )
+
+
+def _conflict(dae: DAE, conditions: Conditions) -> str:
+    n = dae.n
+    rows = [dae.init_labels[i - n] for i in conditions.conflict if i >= n]
+    return f"these initial conditions determine more than there is: {listed(rows, '; ')}"
+
+
+def _check_surplus(dae: DAE, evaluator: Evaluator, attributes: Attributes, conditions: Conditions) -> None:
+    """Initial conditions that were left out must hold in the solution."""
+    if not conditions.surplus:
+        return
+    values = evaluator.initial().copy()
+    scale = _initial_scale(dae, evaluator, attributes)
+    wrong = [k for k in conditions.surplus if not abs(values[k]) <= CONSISTENT * scale[k]]
+    if wrong:
+        told = "; ".join(f"{dae.init_labels[k]} (off by {values[k]:.6g})" for k in wrong)
+        raise InitializationError(
+            f"the initial conditions contradict each other: not fulfilled: {told}",
+            cause=_conflict(dae, conditions),
+            remedy="remove one of them, or replace a fixed start value by a guess",
+        )
+
+
+def _initial_scale(dae: DAE, evaluator: Evaluator, attributes: Attributes) -> FloatArray:
+    """Largest change that the unknowns' magnitudes make in each initial condition."""
+    row = np.asarray(dae.init_sparsity.row)
+    column = np.repeat(np.arange(2 * dae.n), np.diff(dae.init_sparsity.colind))
+    magnitude = np.maximum(np.abs(attributes.nominal), np.abs(evaluator.y))
+    scale = np.zeros(dae.n_init)
+    np.maximum.at(scale, row, np.abs(evaluator.initial_jacobian()) * np.tile(magnitude, 2)[column])
+    return scale
+
+
+def _notices(dae: DAE, attributes: Attributes, evaluator: Evaluator, conditions: Conditions) -> list[str]:
+    """What was assumed."""
+    messages = []
+    if conditions.assumed.size:
+        names = [f"{dae.y_paths[j]} = {evaluator.y[j]:g}" for j in conditions.assumed]
+        messages.append(f"no initial condition, start value taken: {listed(names)}")
+    if conditions.surplus:
+        labels = [dae.init_labels[k] for k in conditions.surplus]
+        messages.append(f"initial conditions that say nothing new: {listed(labels)}")
+    low, high = attributes.min, attributes.max
+    outside = np.flatnonzero((evaluator.y < low) | (evaluator.y > high))
+    if outside.size:
+        names = [f"{dae.y_paths[j]} = {evaluator.y[j]:g}" for j in outside]
+        messages.append(f"initial values outside min and max: {listed(names)}")
+    return messages

@@ -1,0 +1,58 @@
+"""Relations, `when` conditions and discrete variables at one instant."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from arthur_acausal.solve.diagnosis import listed
+from arthur_acausal.solve.protocol import DAE, BoolArray, Evaluator, FloatArray
+
+
+class Modes:
+    """The discrete part of the state, which lives in the evaluator's m, z and zp."""
+
+    def __init__(self, dae: DAE, evaluator: Evaluator) -> None:
+        self._dae, self._evaluator = dae, evaluator
+        self._inclusive = np.array([r.inclusive for r in dae.relations], dtype=bool)
+        kinds = dae.assignments
+        self._always = [(k, a.index) for k, a in enumerate(kinds) if a.when < 0 and a.kind == "discrete"]
+        self._changed: list[int] = []
+        self.conditions: BoolArray = np.zeros(len(dae.whens), dtype=bool)
+
+    def truth(self, g: FloatArray) -> BoolArray:
+        """Which relations hold for these values."""
+        return (g > 0.0) | ((g == 0.0) & self._inclusive)
+
+    def update(self) -> bool:
+        """Set all modes from the present values; whether any changed."""
+        evaluator = self._evaluator
+        if not evaluator.m.size:
+            return False
+        holds = self.truth(evaluator.roots())
+        self._changed = np.flatnonzero(holds != (evaluator.m > 0.5)).tolist()
+        evaluator.m[:] = holds
+        return bool(self._changed)
+
+    def assign_discrete(self) -> bool:
+        """Evaluate the discrete equations that are always active until they agree; whether any value changed."""
+        evaluator = self._evaluator
+        before = evaluator.z.copy()
+        for _ in range(len(self._always) + 1):
+            values = evaluator.when_values() if self._always else evaluator.z
+            last = evaluator.z.copy()
+            for k, index in self._always:
+                evaluator.z[index] = values[k]
+            if np.array_equal(last, evaluator.z):
+                break
+        return not np.array_equal(before, evaluator.z)
+
+    def settle(self) -> None:
+        """The instant is over: present values become the previous ones."""
+        evaluator = self._evaluator
+        evaluator.zp[:] = evaluator.z
+        if self.conditions.size:
+            self.conditions = evaluator.conditions() > 0.5
+
+    def last_changed(self) -> str:
+        """The relations that changed in the last update, for messages."""
+        return listed([self._dae.relations[k].label for k in self._changed], "; ")

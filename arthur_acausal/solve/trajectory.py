@@ -1,0 +1,87 @@
+"""The computed course of all that the solver knows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from arthur_acausal.solve.options import SolverOptions
+from arthur_acausal.solve.protocol import FloatArray
+from arthur_acausal.solve.statistics import Statistics
+
+Status = Literal["finished", "terminated", "failed", "interrupted"]
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happened at one instant.
+
+    Attributes
+    ----------
+    time : s.
+    what : in words.
+    path : the label of the relation or `when` clause.
+    kind : "state", "time", "input", "when" or "terminate".
+    """
+
+    time: float
+    what: str
+    path: str = ""
+    kind: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Trajectory:
+    """Values at nt times. At an event two rows have the same time: before and after.
+
+    Attributes
+    ----------
+    t : (nt,), s.
+    y, yp : (nt, n), unknowns and their derivatives (zero for algebraic ones).
+    u, z, m : (nt, .), inputs, discrete variables, truth values of the relations.
+    p : parameters.
+    status : "finished", "terminated" (by the model), "failed" or "interrupted".
+    message : why it ended.
+    """
+
+    t: FloatArray
+    y: FloatArray
+    yp: FloatArray
+    u: FloatArray
+    z: FloatArray
+    m: FloatArray
+    p: FloatArray
+    start_time: float
+    stop_time: float
+    options: SolverOptions
+    events: list[Event] = field(default_factory=list)
+    statistics: Statistics = field(default_factory=Statistics)
+    status: Status = "finished"
+    message: str = ""
+
+
+class Recorder:
+    """Collects rows in pieces; z and m are constant over a piece."""
+
+    def __init__(self) -> None:
+        self._pieces: list[tuple[FloatArray, ...]] = []
+
+    def add(
+        self, t: FloatArray, y: FloatArray, yp: FloatArray, u: FloatArray, z: FloatArray, m: FloatArray
+    ) -> None:
+        """Append rows: t (k,), y and yp (k, n), u (k, nu) or (nu,), z (nz,) and m (nm,). All are kept: pass copies."""
+        self._pieces.append((t, y, yp, u, z, m))
+
+    def columns(self) -> tuple[FloatArray, ...]:
+        """t, y, yp, u, z, m of all rows."""
+        pieces = self._pieces
+        t, y, yp = (np.concatenate([piece[k] for piece in pieces]) for k in range(3))
+        u, z, m = (
+            np.concatenate(
+                [np.broadcast_to(piece[k], (len(piece[0]), piece[k].shape[-1])) for piece in pieces]
+            )
+            for k in (3, 4, 5)
+        )
+        return t, y, yp, u, z, m
