@@ -1,0 +1,93 @@
+"""Translational elements, named as in the Modelica Standard Library (Mechanics.Translational)."""
+
+from __future__ import annotations
+
+from arthur_acausal import Component, Equations, Real, der, parameter, variable
+from arthur_acausal.components.translational.flange import Flange
+
+
+class Mass(Component):
+    """A sliding mass with one flange; connect several components to it.
+
+    States: ``s`` [m], ``v`` [m/s]. Parameter: ``m`` [kg]. Newton's second law.
+    """
+
+    flange = Flange()
+    m: Real = parameter("kg", min=0.0, description="mass")
+    s: Real = variable("m", description="position")
+    v: Real = variable("m/s", description="velocity")
+    E_kinetic: Real = variable("J", description="kinetic energy")
+
+    def equations(self) -> Equations:
+        yield self.s == self.flange.s
+        yield self.v == der(self.s)
+        yield "Newton's second law", self.m * der(self.v) == self.flange.f
+        yield self.E_kinetic == self.m * self.v**2 / 2
+
+
+class Compliant(Component):
+    """What all massless elements between two flanges share: ``s_rel`` [m], the elongation, and one force [N].
+
+    ``f`` is positive in tension of the element, that is, it pulls the two flanges together.
+    """
+
+    flange_a = Flange()
+    flange_b = Flange()
+    s_rel: Real = variable("m", description="distance from flange_a to flange_b")
+    f: Real = variable("N", description="force in the element, positive in tension")
+
+    def equations(self) -> Equations:
+        yield self.s_rel == self.flange_b.s - self.flange_a.s
+        yield self.flange_b.f == self.f
+        yield self.flange_a.f == -self.f
+
+
+class Spring(Compliant):
+    """A linear spring: f = c (s_rel - s_rel0). ``c`` [N/m], ``s_rel0`` [m] unstretched length."""
+
+    c: Real = parameter("N/m", min=0.0)
+    s_rel0: Real = parameter("m", default=0.0)
+    E_elastic: Real = variable("J", description="elastic energy")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield "Hooke's law", self.f == self.c * (self.s_rel - self.s_rel0)
+        yield self.E_elastic == self.c * (self.s_rel - self.s_rel0) ** 2 / 2
+
+
+class Damper(Compliant):
+    """A linear damper: f = d der(s_rel). ``d`` [N s/m]."""
+
+    d: Real = parameter("N*s/m", min=0.0)
+    v_rel: Real = variable("m/s", description="velocity of flange_b relative to flange_a")
+    P_loss: Real = variable("W", description="power turned to heat")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.v_rel == der(self.s_rel)
+        yield "linear damping", self.f == self.d * self.v_rel
+        yield self.P_loss == self.d * self.v_rel**2
+
+
+class SpringDamper(Compliant):
+    """A spring and a damper side by side: f = c (s_rel - s_rel0) + d der(s_rel)."""
+
+    c: Real = parameter("N/m", min=0.0)
+    d: Real = parameter("N*s/m", min=0.0)
+    s_rel0: Real = parameter("m", default=0.0)
+    v_rel: Real = variable("m/s", description="velocity of flange_b relative to flange_a")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.v_rel == der(self.s_rel)
+        yield "spring and damper", self.f == self.c * (self.s_rel - self.s_rel0) + self.d * self.v_rel
+
+
+class Fixed(Component):
+    """A flange that does not move: s = s0 [m]."""
+
+    flange = Flange()
+    s0: Real = parameter("m", default=0.0)
+
+    def equations(self) -> Equations:
+        yield self.flange.s == self.s0

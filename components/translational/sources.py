@@ -1,0 +1,53 @@
+"""Sources of translational mechanics."""
+
+from __future__ import annotations
+
+from arthur_acausal import Component, Equations, Real, der, real_input, variable
+from arthur_acausal.components.translational.flange import Flange
+
+
+class ForceSource(Component):
+    """An external force ``f`` [N] that pushes the connected component in the direction of positive s."""
+
+    flange = Flange()
+    f: Real = real_input("N", default=0.0)
+
+    def equations(self) -> Equations:
+        yield self.flange.f == -self.f
+
+
+class LoadForce(Component):
+    """An external force ``F`` [N] that pushes against positive s: an actuator that extends works against it.
+
+    ``P_work`` [W]: the power that the connected component gives to the load.
+    """
+
+    flange = Flange()
+    F: Real = real_input("N", default=0.0)
+    P_work: Real = variable("W", description="power given to the load")
+
+    def equations(self) -> Equations:
+        yield self.flange.f == self.F
+        yield self.P_work == self.F * der(self.flange.s)
+
+
+class SpeedSource(Component):
+    """Moves its flange with the velocity ``v`` [m/s]. State: ``s`` [m]."""
+
+    flange = Flange()
+    v: Real = real_input("m/s", default=0.0)
+    s: Real = variable("m", start=0.0, fixed=True, state_select="prefer")
+
+    def equations(self) -> Equations:
+        yield self.flange.s == self.s
+        yield der(self.s) == self.v
+
+
+class PositionSource(Component):
+    """Moves its flange to ``s`` [m]; an inertia on it needs the signal to be differentiable twice."""
+
+    flange = Flange()
+    s: Real = real_input("m", default=0.0)
+
+    def equations(self) -> Equations:
+        yield self.flange.s == self.s
