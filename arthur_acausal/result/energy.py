@@ -43,9 +43,9 @@ def audit(solution: Solution) -> Energy:
     """Add up the terms that the model names.
 
     ``solution.run.audit`` maps "input", "work" and "stored" to lists of paths and "losses" to a mapping of
-    causes to such lists. A path is of an energy in J, of which the growth counts, or of a power in W, which is
-    integrated over the stored times; a minus sign before it turns its sign. Patterns such as ``valves[*].E``
-    are allowed.
+    causes to such lists. A path is of an energy in J, of which the growth counts, or of a power in W, which
+    is integrated over the stored times; a minus sign before it turns its sign. Patterns such as
+    ``valves[*].E`` are allowed.
     """
     terms = solution.run.audit
     losses = {cause: total(solution, paths) for cause, paths in terms.get("losses", {}).items()}

@@ -39,7 +39,8 @@ class Run:
     start_time, stop_time : the interval that was asked for, s.
     status : "finished", "terminated" (by the model), "failed" or "interrupted".
     message : why it ended, for people.
-    parameters : what was set for this run, by path, SI.
+    parameters, inputs, start : what was set for this run, by path, SI; of an input that varies, where its
+        values came from.
     options : tolerances and all other options of the solver: a dataclass, or a namespace from a file.
     statistics : counts and wall times of the run: likewise.
     events : in order of time.
@@ -55,6 +56,8 @@ class Run:
     status: str = "finished"
     message: str = ""
     parameters: Mapping[str, Json] = field(default_factory=dict)
+    inputs: Mapping[str, Json] = field(default_factory=dict)
+    start: Mapping[str, Json] = field(default_factory=dict)
     options: Any = None
     statistics: Any = None
     events: tuple[Event, ...] = ()

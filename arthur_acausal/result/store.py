@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 FORMAT = "arthur-acausal solution 1"
 VARIABLE, DERIVATIVE = "variable", "derivative"  # roles: of the model, or a state's dx/dt for interpolation
 TEXT_ATTRIBUTES = ("model", "description", "status", "message")
-JSON_ATTRIBUTES = ("parameters", "options", "statistics", "events", "audit")
+JSON_ATTRIBUTES = ("parameters", "inputs", "start", "options", "statistics", "events", "audit")
 VERSION = "_version"
 
 Said: TypeAlias = Mapping[str, str | float]  # attributes

@@ -135,6 +135,8 @@ def read_run(dataset: Any) -> Run:
         start_time=float(dataset.start_time),
         stop_time=float(dataset.stop_time),
         parameters=json.loads(text(dataset, "parameters")),
+        inputs=json.loads(text(dataset, "inputs")),
+        start=json.loads(text(dataset, "start")),
         options=namespace(json.loads(text(dataset, "options"))),
         statistics=namespace(json.loads(text(dataset, "statistics"))),
         events=tuple(Event(**event) for event in json.loads(text(dataset, "events"))),
