@@ -69,10 +69,10 @@ class Inputs:
             _check_function(item, start_time)
         self.begin(start_time)
 
-    def begin(self, t: float) -> None:
-        """Enter the piece of every table that starts at t or holds it, and write the values at t."""
+    def begin(self, t: float, ahead: float = 0.0) -> None:
+        """Enter the piece of every table that holds t + ahead or starts there, and write its values at t."""
         for group in self._groups:
-            group.begin(t)
+            group.begin(t + ahead)
         self.refresh(t)
 
     def next_jump(self, t: float) -> float:

@@ -1,0 +1,44 @@
+"""Events that come ever closer together: an end of the run that would otherwise never come."""
+
+from __future__ import annotations
+
+from collections import deque
+
+from arthur_acausal.errors import SimulationError
+
+SHRINKING = 5  # so many intervals in a row, each shorter than the one before, are a series that accumulates
+
+
+class Accumulation:
+    """Watches the times of state events of one run."""
+
+    def __init__(self, duration: float, zeno_interval: float, chattering_events: int, window: float) -> None:
+        self._shortest = zeno_interval * duration
+        self._window = window * duration
+        self._times: deque[float] = deque(maxlen=max(chattering_events, SHRINKING + 2))
+        self._most = chattering_events
+
+    def add(self, t: float, label: str) -> None:
+        """Note a state event at t; SimulationError if the events accumulate or chatter."""
+        times = self._times
+        times.append(t)
+        recent = list(times)[-(SHRINKING + 2) :]
+        intervals = [b - a for a, b in zip(recent, recent[1:], strict=False)]
+        if len(intervals) > SHRINKING and intervals[-1] < self._shortest and _shrinks(intervals):
+            raise SimulationError(
+                f"the events accumulate at t = {t:.9g} s (Zeno): the last intervals are {intervals[-2]:.2g} s and "
+                f"{intervals[-1]:.2g} s long; the last event was {label}",
+                cause="each event causes the next one after a shorter time",
+                remedy="end the run or change to another state (at rest) before, for instance by terminate()",
+            )
+        if len(times) >= self._most and t - times[-self._most] < self._window:
+            raise SimulationError(
+                f"chattering at t = {t:.9g} s: {self._most} events within {t - times[-self._most]:.2g} s; the last "
+                f"was {label}",
+                cause="the model moves back and forth across the relation",
+                remedy="add a state for sliding or sticking, a hysteresis, or use a smooth law",
+            )
+
+
+def _shrinks(intervals: list[float]) -> bool:
+    return all(later < earlier for earlier, later in zip(intervals, intervals[1:], strict=False))

@@ -1,0 +1,171 @@
+"""What happens at one instant: relations change, `when` clauses act, all equations become consistent again.
+
+The iteration follows Modelica: relations and discrete variables are updated until they agree, with the values of the
+pass before as previous ones. A relation takes the truth value that it has just after the instant, so that an event
+that is handled leaves no relation on the wrong side by a rounding error, and events closer together than the
+resolution are one. Modelica Language Specification 3.6, appendix B.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from arthur_acausal.errors import SimulationError
+from arthur_acausal.solve.consistent import ConsistentSystem, Index
+from arthur_acausal.solve.diagnosis import listed
+from arthur_acausal.solve.initialize import failure
+from arthur_acausal.solve.modes import Modes
+from arthur_acausal.solve.options import SolverOptions
+from arthur_acausal.solve.protocol import DAE, Attributes, BoolArray, Evaluator
+from arthur_acausal.solve.trajectory import Event
+
+
+@dataclass(slots=True)
+class Outcome:
+    """What an event did.
+
+    Attributes
+    ----------
+    events : one for each relation that changed, `when` clause that acted, and termination.
+    iterations : Newton iterations.
+    terminate : the message of a terminate() that was reached.
+    """
+
+    events: list[Event] = field(default_factory=list)
+    iterations: int = 0
+    terminate: str | None = None
+
+
+class EventIteration:
+    """Handles the events of one model; it works in place on the evaluator."""
+
+    def __init__(
+        self, dae: DAE, evaluator: Evaluator, attributes: Attributes, modes: Modes, options: SolverOptions
+    ) -> None:
+        self._dae, self._evaluator, self._modes, self._options = dae, evaluator, modes, options
+        algebraic = np.flatnonzero(~dae.differential)
+        self._has_algebraic = bool(algebraic.size)
+        self._system = ConsistentSystem(dae, evaluator, attributes, algebraic, algebraic[:0])
+        self._scale = np.zeros(len(dae.relations))
+
+    def handle(self, flagged: Mapping[int, bool], resolution: float, inputs_jump: bool = False) -> Outcome:
+        """Handle the event at the evaluator's t, y, y'. `flagged` are relations known to change, and to what.
+
+        `resolution` is the time, s, within which events are one.
+        """
+        evaluator, outcome = self._evaluator, Outcome()
+        before = evaluator.m > 0.5
+        dirty = inputs_jump
+        reset = False
+        for number in range(self._options.max_event_iterations):
+            modes = self._right_limit(flagged, resolution, np.inf if number == 0 else 0.0 if reset else 1.0)
+            moving = np.flatnonzero(modes != (evaluator.m > 0.5))
+            moved = moving.size > 0
+            evaluator.m[:] = modes
+            rising = self._rising()
+            if number and not moved and not dirty and not rising.any():
+                break
+            if rising.any() and self._has_algebraic and (moved or dirty):
+                self._solve(outcome)
+            changed, was_reset = self._act(rising, outcome)
+            reset |= was_reset
+            if changed or moved or dirty:
+                self._solve(outcome)
+            dirty = not np.array_equal(evaluator.z, evaluator.zp)
+            evaluator.zp[:] = evaluator.z
+        else:
+            raise self._unsettled(moving)
+        self._relation_events(before, flagged, outcome)
+        return outcome
+
+    def _right_limit(self, flagged: Mapping[int, bool], resolution: float, trust: float) -> BoolArray:
+        """Truth values just after the instant.
+
+        Flagged relations have the value they are known to take as long as their g is no larger than `trust` times
+        what the tolerance leaves uncertain: algebraic variables move by that much when they are solved for anew.
+        """
+        evaluator = self._evaluator
+        if not evaluator.m.size:
+            return np.zeros(0, dtype=bool)
+        t, y = float(evaluator.t[0]), evaluator.y.copy()
+        self._scale = np.maximum(self._scale, np.abs(evaluator.roots()))
+        evaluator.t[0] = t + resolution
+        evaluator.y += resolution * evaluator.yp
+        g = evaluator.roots().copy()
+        evaluator.t[0], evaluator.y[:] = t, y
+        truth = self._modes.truth(g)
+        for k, value in flagged.items():
+            if abs(g[k]) <= trust * self._options.rtol * self._scale[k]:
+                truth[k] = value
+        return truth
+
+    def _rising(self) -> BoolArray:
+        """Conditions that have become true since the last pass."""
+        if not self._modes.conditions.size:
+            return self._modes.conditions
+        now = self._evaluator.conditions() > 0.5
+        rising = now & ~self._modes.conditions
+        self._modes.conditions = now
+        return rising
+
+    def _act(self, rising: BoolArray, outcome: Outcome) -> tuple[bool, bool]:
+        """Do what the risen `when` clauses and the always active equations say: whether anything, a state, changed."""
+        dae, evaluator = self._dae, self._evaluator
+        active = [(k, a) for k, a in enumerate(dae.assignments) if a.when < 0 or rising[a.when]]
+        if not active:
+            return False, False
+        before = evaluator.z.copy()
+        values = evaluator.when_values().copy()
+        for _ in range(len(active)):  # a value may depend on a discrete variable assigned in the same pass
+            last = evaluator.z.copy()
+            for k, a in active:
+                if a.kind == "discrete":
+                    evaluator.z[a.index] = values[k]
+            if np.array_equal(last, evaluator.z):
+                break
+            values = evaluator.when_values().copy()
+        reset = False
+        for k, a in active:
+            if a.kind == "state":
+                reset |= bool(evaluator.y[a.index] != values[k])
+                evaluator.y[a.index] = values[k]
+            elif a.kind == "terminate":
+                outcome.terminate = a.message
+        for k in np.flatnonzero(rising):
+            when = dae.whens[int(k)]
+            outcome.events.append(Event(float(evaluator.t[0]), when.label, when.where, "when"))
+        return reset or not np.array_equal(before, evaluator.z), reset
+
+    def _solve(self, outcome: Outcome) -> None:
+        """Make the algebraic variables and the derivatives consistent with the states, modes and discrete values."""
+        if not self._system.size:
+            return
+        solved = self._system.solve(self._options.newton_tolerance, self._options.newton_iterations)
+        outcome.iterations += solved.iterations
+        if solved.reason:
+            raise failure(self._dae, self._evaluator, self._system, solved)
+
+    def _relation_events(self, before: BoolArray, flagged: Mapping[int, bool], outcome: Outcome) -> None:
+        """One entry for each relation that was known to change or has changed."""
+        after = self._evaluator.m > 0.5
+        t = float(self._evaluator.t[0])
+        changes = {int(k): bool(after[k]) for k in np.flatnonzero(before != after)} | dict(flagged)
+        entries = []
+        for k, value in sorted(changes.items()):
+            relation = self._dae.relations[k]
+            what = f"{relation.label} became {'true' if value else 'false'}"
+            entries.append(Event(t, what, relation.where, "time" if relation.time_only else "state"))
+        outcome.events[:0] = entries
+
+    def _unsettled(self, moving: Index) -> SimulationError:
+        """What to tell when the passes come to no end."""
+        names = listed([self._dae.relations[int(k)].label for k in moving], "; ")
+        return SimulationError(
+            f"chattering at t = {self._evaluator.t[0]:.9g} s: {names or 'a discrete variable'} changes back as soon "
+            "as it has changed",
+            cause="on both sides of the relation the model moves back towards it, so that neither side holds",
+            remedy="add a state for sliding or sticking, a hysteresis, or use a smooth law",
+        )

@@ -1,0 +1,220 @@
+"""The hybrid loop: integrate to the next event, handle it, start anew, until the end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from arthur_acausal.errors import SimulationError
+from arthur_acausal.solve.accumulation import Accumulation
+from arthur_acausal.solve.callbacks import Monitor, Progress, Roots
+from arthur_acausal.solve.events import EventIteration
+from arthur_acausal.solve.failure import integration_failure, suspect, too_many_steps
+from arthur_acausal.solve.ida import Ida, Stretch
+from arthur_acausal.solve.initialize import initialize
+from arthur_acausal.solve.inputs import Input, Inputs
+from arthur_acausal.solve.modes import Modes
+from arthur_acausal.solve.options import SolverOptions
+from arthur_acausal.solve.protocol import DAE
+from arthur_acausal.solve.schedule import Schedule
+from arthur_acausal.solve.statistics import Statistics
+from arthur_acausal.solve.trajectory import Event, Recorder, Status, Trajectory
+
+# Events closer together than this, relative to time and step, are one. IDA finds a root to within 100 units of
+# rounding of the same sum, 2e-14 of it; a bounce at a fiftieth of the speed still counts as leaving at once.
+RESOLUTION = 1e-12
+
+
+class HybridRun:
+    """The state of one simulation; its present values are those in the evaluator."""
+
+    def __init__(
+        self,
+        dae: DAE,
+        start_time: float,
+        stop_time: float,
+        options: SolverOptions,
+        inputs: Mapping[str, Input],
+        parameters: Mapping[str, Any] | None,
+        progress: Progress | None,
+    ) -> None:
+        self._begun = perf_counter()
+        self._dae, self._options = dae, options
+        self._start, self._stop = start_time, stop_time
+        self._evaluator = evaluator = dae.evaluator()
+        self._p = dae.parameter_vector(parameters)
+        evaluator.p[:] = self._p
+        evaluator.t[0] = start_time
+        self._attributes = dae.attributes(self._p)
+        self._inputs = Inputs(dae.u_paths, dae.u_default, inputs, evaluator.u, start_time, stop_time)
+        self._statistics = Statistics(unknowns=dae.n)
+        self._monitor = Monitor(options.max_steps, progress)
+        self._modes = Modes(dae, evaluator)
+        self._iteration = EventIteration(dae, evaluator, self._attributes, self._modes, options)
+        self._schedule = Schedule(dae, evaluator)
+        self._accumulation = Accumulation(
+            stop_time - start_time,
+            options.zeno_interval,
+            options.chattering_events,
+            options.chattering_window,
+        )
+        self._recorder = Recorder()
+        self._events: list[Event] = []
+        self._ended: tuple[Status, str] | None = None
+
+    def initialize(self, start: Mapping[str, float]) -> None:
+        """Find consistent values at the start."""
+        done = initialize(self._dae, self._evaluator, self._attributes, self._modes, self._options, start)
+        self._statistics.initial_iterations = done.iterations
+        self._statistics.messages += done.messages
+        self._record_point()
+        self._statistics.initialize_s = perf_counter() - self._begun
+
+    def integrate(self) -> Trajectory:
+        """Run to the end."""
+        self._prepare()
+        self._event({})  # what is true just after the start but not at it
+        while self._ended is None:
+            self._advance()
+        return self.trajectory(*self._ended)
+
+    def _prepare(self) -> None:
+        dae, options = self._dae, self._options
+        self._grid = options.grid(self._start, self._stop)
+        self._atol = options.absolute_tolerances(list(dae.y_paths), self._attributes.nominal)
+        self._roots = Roots(dae, self._evaluator, self._inputs, self._monitor)
+        max_step = options.max_step or 0.0
+        if not dae.n and not max_step:  # nothing else would make IDA look for events often enough
+            max_step = float(self._grid[1] - self._grid[0])
+        self._engine = Ida(
+            dae, self._evaluator, self._inputs, self._roots, self._monitor, self._atol, options, max_step
+        )
+        self._statistics.linear_solver = self._engine.linear_solver
+
+    @property
+    def _t(self) -> float:
+        return float(self._evaluator.t[0])
+
+    @property
+    def _resolution(self) -> float:
+        step = self._monitor.h or 1e-3 * (self._stop - self._start)
+        return RESOLUTION * (abs(self._t) + step)
+
+    def _advance(self) -> None:
+        """Integrate over one stretch and handle what ends it."""
+        evaluator, t, near = self._evaluator, self._t, self._resolution
+        end = min(self._stop, self._inputs.next_jump(t + near), self._schedule.next())
+        first, last = np.searchsorted(self._grid, [t + near, end - near])
+        times = np.concatenate([[t], self._grid[first:last], [end]])
+        self._roots.restart(t + near)
+        before = perf_counter()
+        y, yp = evaluator.y.copy(), evaluator.yp.copy()
+        stretch = self._engine.run(times, y, yp, self._options.first_step, self._options.store_steps)
+        self._statistics.integrate_s += perf_counter() - before
+        if stretch.t.size:
+            t = float(stretch.t[-1])
+            y, yp = stretch.y[-1], stretch.yp[-1]
+            u = self._inputs.sample(stretch.t)
+            self._recorder.add(stretch.t, stretch.y, stretch.yp, u, evaluator.z.copy(), evaluator.m.copy())
+        self._check(stretch, t, y, yp)
+        evaluator.t[0], evaluator.y[:], evaluator.yp[:] = t, y, yp
+        self._inputs.refresh(t)
+        self._check_relations(stretch)
+        self._arrive(stretch)
+
+    def _arrive(self, stretch: Stretch) -> None:
+        """Handle what is due at the end of a stretch."""
+        t, near = self._t, self._resolution
+        flagged = self._schedule.due(t + near)
+        jump = self._inputs.next_jump(t - near) <= t + near
+        self._statistics.time_events += bool(flagged or jump)
+        if stretch.end == "root":
+            found = {int(self._roots.index[k]): bool(d > 0) for k, d in enumerate(stretch.directions) if d}
+            flagged |= found
+            self._statistics.state_events += 1
+            self._accumulation.add(t, self._dae.relations[next(iter(found))].label)
+        if jump:
+            self._events.append(Event(t, "an input jumps", kind="input"))
+        if flagged or jump:
+            self._statistics.restarts += 1
+            self._event(flagged, jump)
+        if self._ended is None and self._stop - t <= near:
+            self._ended = ("finished", "")
+
+    def _event(self, flagged: Mapping[int, bool], jump: bool = False) -> None:
+        """Handle an event at the present time; `flagged` relations are known to change."""
+        before = perf_counter()
+        t, near = self._t, self._resolution
+        self._inputs.begin(t, near)
+        outcome = self._iteration.handle(flagged, near, jump)
+        self._schedule.update(t, t + near)
+        if flagged or jump or outcome.events:
+            self._events += outcome.events
+            self._statistics.events += 1
+            self._record_point()
+        self._statistics.event_iterations += outcome.iterations
+        if outcome.terminate is not None:
+            self._ended = ("terminated", outcome.terminate)
+        self._statistics.events_s += perf_counter() - before
+
+    def _check(self, stretch: Stretch, t: float, y: Any, yp: Any) -> None:
+        """Raise what ended the stretch early; t, y, yp are the last good values."""
+        if stretch.end not in ("failed", "halted"):
+            return
+        if self._monitor.halted == "interrupted":
+            raise KeyboardInterrupt
+        told = suspect(self._dae, self._evaluator, t, y, yp, self._options.rtol, self._atol)
+        if self._monitor.halted or stretch.flag == -1:
+            raise too_many_steps(self._monitor, self._options, told)
+        raise integration_failure(self._dae, self._evaluator, self._monitor, stretch, t, told)
+
+    def _check_relations(self, stretch: Stretch) -> None:
+        """No frozen relation may have changed unseen."""
+        found = self._roots.disagreement if stretch.end != "root" else None
+        if found is None:
+            k = self._schedule.unseen(self._t, self._t + self._resolution)
+            found = None if k is None else (self._t, k)
+        if found is not None:
+            relation = self._dae.relations[found[1]]
+            raise SimulationError(
+                f"the relation {relation.label} changed by t = {found[0]:.9g} s without an event",
+                where=relation.where,
+                cause="it depends on something that neither the step nor the schedule of time events shows",
+                remedy="make it a relation of states and time that is continuous between events",
+            )
+
+    def _record_point(self) -> None:
+        ev = self._evaluator
+        self._recorder.add(
+            ev.t.copy(), ev.y[None].copy(), ev.yp[None].copy(), ev.u.copy(), ev.z.copy(), ev.m.copy()
+        )
+
+    def trajectory(self, status: Status, message: str) -> Trajectory:
+        """What has been computed so far."""
+        before = perf_counter()
+        t, y, yp, u, z, m = self._recorder.columns()
+        s, counts = self._statistics, self._monitor
+        s.steps, s.rejected_steps = counts.steps, counts.rejected
+        s.residual_evaluations, s.jacobian_evaluations = counts.residuals, counts.jacobians
+        s.root_evaluations, s.non_finite_residuals = counts.roots, counts.non_finite
+        s.output_s = perf_counter() - before
+        s.total_s = perf_counter() - self._begun
+        return Trajectory(
+            t,
+            y,
+            yp,
+            u,
+            z,
+            m,
+            self._p,
+            self._start,
+            self._stop,
+            self._options,
+            self._events,
+            s,
+            status,
+            message,
+        )
