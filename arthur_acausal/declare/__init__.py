@@ -1,1 +1,1 @@
-"""Authoring: connectors, components, records, quantities and statements."""
+"""Declaring: connectors, components and records, their quantities, and the statements between them."""

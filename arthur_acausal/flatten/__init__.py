@@ -1,1 +1,1 @@
-"""From a tree of components to one flat system of equations."""
+"""Flattening: from a component to one flat system of equations, each with its source line."""

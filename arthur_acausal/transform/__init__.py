@@ -1,1 +1,1 @@
-"""Symbolic passes: from flat equations to a structured DAE of index one."""
+"""Transformations: alias elimination, index reduction, causalisation. Each pass takes a frozen value to the next."""

@@ -1,0 +1,123 @@
+"""The public way through all stages: ``translate`` once a structure, ``simulate`` as often as wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+from arthur_acausal.codegen.compiled import CompiledDAE
+from arthur_acausal.codegen.generate import generate
+from arthur_acausal.declare.model import Component
+from arthur_acausal.errors import UsageError
+from arthur_acausal.flatten.flatten import flatten
+from arthur_acausal.flatten.system import FlatSystem
+from arthur_acausal.transform.structured import StructuredDAE, StructureReport, report, transform
+
+if TYPE_CHECKING:
+    from arthur_acausal.result.solution import Solution
+    from arthur_acausal.result.verify import Verification
+    from arthur_acausal.solve.inputs import Input
+    from arthur_acausal.solve.options import SolverOptions
+
+
+@dataclass(frozen=True)
+class Translation:
+    """A translated model: simulate it with any parameter values, inputs and start values, without a recompile."""
+
+    model: Component
+    flat: FlatSystem = field(repr=False)
+    structured: StructuredDAE = field(repr=False)
+    dae: CompiledDAE = field(repr=False)
+    seconds: Mapping[str, float] = field(repr=False)
+
+    @cached_property
+    def report(self) -> StructureReport:
+        """The structural report: counts, states, blocks, index, what was differentiated."""
+        return report(self.structured)
+
+    def simulate(
+        self,
+        stop_time: float,
+        *,
+        start_time: float = 0.0,
+        tolerance: float | None = None,
+        parameters: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, Input] | None = None,
+        start: Mapping[str, Any] | None = None,
+        options: SolverOptions | None = None,
+        progress: Callable[[float], None] | None = None,
+    ) -> Solution:
+        """Simulate from ``start_time`` to ``stop_time`` [s].
+
+        Parameters
+        ----------
+        tolerance : relative tolerance of the integration, short for ``options=SolverOptions(rtol=...)``.
+        parameters, start : values by path: SI numbers, text with a unit ("150 bar"), or pint quantities.
+        inputs : external inputs by path: constants, functions of time, or tables.
+        progress : called with the present time about ten times a second.
+
+        Raises
+        ------
+        SimulationError : the run stopped early; its ``solution`` holds what was computed.
+        InitializationError, ParameterError, UsageError : before the first step.
+        """
+        from arthur_acausal.result.simulated import run
+
+        return run(
+            self.dae,
+            self.model,
+            stop_time=stop_time,
+            start_time=start_time,
+            options=_options(options, tolerance),
+            parameters=parameters,
+            inputs=inputs,
+            start=start,
+            progress=progress,
+        )
+
+    def verify(self, solution: Solution) -> Verification:
+        """Evaluate every raw equation of the model, before any elimination, on a solution of it."""
+        from arthur_acausal.result.verify import verify
+
+        return verify(self.flat, self.structured, solution)
+
+
+def _options(options: SolverOptions | None, tolerance: float | None) -> SolverOptions:
+    from arthur_acausal.solve.options import SolverOptions
+
+    if options is None:
+        return SolverOptions() if tolerance is None else SolverOptions(rtol=tolerance)
+    if tolerance is not None:
+        raise UsageError("give the tolerance in the options, or by itself, not both")
+    return options
+
+
+def translate(model: Component, *, name: str = "", check_units: bool = True, compile: str = "auto") -> Translation:
+    """Translate a model: flatten, reduce the index, order the equations, generate code.
+
+    Parameters
+    ----------
+    check_units : whether the homogeneity of every equation is checked.
+    compile : "auto" (by the system's C compiler where that pays), "always", "never".
+
+    Raises
+    ------
+    DeclarationError, UnitError, ConnectError, ParameterError, StructureError : with path, equation and file:line.
+    """
+    begun = perf_counter()
+    flat = flatten(model, name=name, check_units=check_units)
+    flattened = perf_counter()
+    structured = transform(flat)
+    transformed = perf_counter()
+    dae = generate(structured, compile=compile)
+    done = perf_counter()
+    seconds = {"flatten": flattened - begun, "transform": transformed - flattened, "codegen": done - transformed}
+    return Translation(model, flat, structured, dae, seconds)
+
+
+def simulate(model: Component, stop_time: float, **arguments: Any) -> Solution:
+    """Translate and simulate a model in one call; the arguments are those of ``Translation.simulate``."""
+    return translate(model).simulate(stop_time, **arguments)

@@ -1,0 +1,177 @@
+"""From a structured system to the CasADi expressions of its kernels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import casadi as ca
+from casadi import SX
+
+from arthur_acausal.errors import StructureError
+from arthur_acausal.transform.rows import Ref
+from arthur_acausal.transform.structured import StructuredDAE
+
+
+@dataclass(frozen=True, slots=True)
+class Arguments:
+    """The symbols of all kernels: time, unknowns, derivatives, parameters, inputs, discretes (now and before), modes."""
+
+    t: SX
+    y: SX
+    yp: SX
+    parameters: SX
+    starts: SX
+    u: SX
+    z: SX
+    zp: SX
+    m: SX
+
+    @property
+    def p(self) -> SX:
+        """Parameters, and the start values behind them."""
+        return ca.vertcat(self.parameters, self.starts)
+
+    def continuous(self) -> list[SX]:
+        """Return the arguments of kernels that are evaluated between events."""
+        return [self.t, self.y, self.yp, self.p, self.u, self.z, self.m]
+
+    def event(self) -> list[SX]:
+        """Return the arguments of kernels that are evaluated at events."""
+        return [*self.continuous(), self.zp]
+
+
+@dataclass(frozen=True, slots=True)
+class StartSlot:
+    """A start value of a node: ``value`` is a number or an expression of parameters; ``path`` declared it."""
+
+    node: int
+    sign: int
+    value: float | SX
+    fixed: bool
+    path: str
+
+
+@dataclass(slots=True)
+class Assembly:
+    """Everything as expressions of ``arguments``; ``node_values`` is the value of every unknown."""
+
+    arguments: Arguments
+    parameters: list[SX]
+    parameter_place: dict[int, int]
+    y_nodes: list[int]
+    node_values: list[SX]
+    residual: list[SX] = field(default_factory=list)
+    row_labels: list[str] = field(default_factory=list)
+    pivots: list[tuple[SX, str]] = field(default_factory=list)
+
+
+def assemble(dae: StructuredDAE, n_starts: int) -> Assembly:
+    """Substitute assignments in order and return residuals and the values of all unknowns."""
+    flat, causal, nodes = dae.flat, dae.causal, dae.nodes
+    y_nodes = causal.states + causal.torn
+    place = _parameter_places(dae)
+    arguments = Arguments(
+        SX.sym("t"),
+        SX.sym("y", len(y_nodes)),
+        SX.sym("yp", len(y_nodes)),
+        SX.sym("p", len(place)),
+        SX.sym("start", n_starts),
+        SX.sym("u", len(flat.inputs)),
+        SX.sym("z", len(flat.scope.discrete)),
+        SX.sym("zp", len(flat.scope.discrete)),
+        SX.sym("m", len(flat.relations)),
+    )
+    values: list[SX] = [SX(0.0)] * len(nodes.all)
+    y, yp = elements(arguments.y), elements(arguments.yp)
+    for k, node in enumerate(y_nodes):
+        values[node] = y[k]
+    rate = {nodes.derivative[n]: yp[k] for k, n in enumerate(causal.states)}
+    in_y = {node: k for k, node in enumerate(y_nodes)}
+    for node, symbol in rate.items():
+        if node not in in_y:
+            values[node] = symbol
+    assembly = Assembly(arguments, elements(arguments.parameters), place, y_nodes, values)
+    look = lookup(assembly, before=False)
+    for assignment in causal.assignments:
+        row = dae.reduced.rows[assignment.row]
+        values[assignment.node] = SX(0.0)
+        rest = dae.evaluator(row, look)
+        coefficient = assignment.coefficient
+        if isinstance(coefficient, float):
+            values[assignment.node] = -rest if coefficient == 1.0 else rest if coefficient == -1.0 else -rest / coefficient
+        else:
+            assert coefficient is not None
+            pivot = dae.evaluator(row, look, coefficient)
+            assembly.pivots.append((pivot, f"{row.text}: solved for {nodes.name(assignment.node)}"))
+            values[assignment.node] = -rest / pivot
+    for r in causal.residuals:
+        assembly.residual.append(dae.evaluator(dae.reduced.rows[r], look))
+        assembly.row_labels.append(dae.reduced.rows[r].text)
+    for node in causal.chained:
+        derivative = nodes.derivative[node]
+        assembly.residual.append(yp[in_y[node]] - values[derivative])
+        assembly.row_labels.append(f"der({nodes.name(node)}) == {nodes.name(derivative)}")
+    return assembly
+
+
+def _parameter_places(dae: StructuredDAE) -> dict[int, int]:
+    """Return parameter number -> place in p; a shared parameter has the place of the one that it stands for."""
+    same = dae.flat.parameter_aliases
+    place: dict[int, int] = {}
+    for i in range(len(dae.flat.scope.parameter)):
+        if i not in same:
+            place[i] = len(place)
+    return place
+
+
+def elements(vector: SX) -> list[SX]:
+    """Return the elements of a column vector."""
+    return ca.vertsplit(vector) if vector.numel() else []
+
+
+def lookup(assembly: Assembly, *, before: bool) -> Callable[[Ref], SX]:
+    """Return what gives the value behind a ref; ``before``: pre(z) is its own argument, else it equals z."""
+    arguments = assembly.arguments
+    p, u, m = assembly.parameters, elements(arguments.u), elements(arguments.m)
+    z = elements(arguments.z)
+    zp = elements(arguments.zp) if before else z
+    values, place = assembly.node_values, assembly.parameter_place
+    zero = SX(0.0)
+
+    def look(ref: Ref) -> SX:
+        match ref.kind:
+            case "node":
+                return values[ref.index]
+            case "parameter":
+                return p[place[ref.index]]
+            case "input":
+                return u[ref.index]
+            case "discrete":
+                return z[ref.index]
+            case "pre":
+                return zp[ref.index]
+            case "mode":
+                return m[ref.index]
+            case "time":
+                return arguments.t
+        return zero
+
+    return look
+
+
+def variable_values(dae: StructuredDAE, assembly: Assembly) -> dict[int, SX]:
+    """Return the value of every root variable that is neither zero nor an input, by its number."""
+    return {node.variable: assembly.node_values[k] for k, node in enumerate(dae.nodes.all) if node.order == 0}
+
+
+def reinit_target(dae: StructuredDAE, variable: int, y_place: dict[int, int], text: str) -> tuple[int, int]:
+    """Return (place in y, sign) of the state that a reinit changes. Raises StructureError if it is no state."""
+    ref = dae.nodes.of_variable(variable)
+    if ref.kind != "node" or ref.index not in y_place or ref.index not in set(dae.causal.states):
+        raise StructureError(
+            f"reinit({dae.flat.variables[variable].path}): it is no state of the system",
+            equation=text,
+            remedy='reinitialise a state that it depends on, or declare it with state_select="always"',
+        )
+    return y_place[ref.index], ref.sign

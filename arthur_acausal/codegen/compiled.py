@@ -1,0 +1,251 @@
+"""``CompiledDAE``: kernels and tables, all that a solver needs; ``Evaluator``: the kernels with their own buffers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Literal
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from arthur_acausal.codegen.kernel import Kernel
+from arthur_acausal.codegen.parameters import ParameterTable
+from arthur_acausal.codegen.recovery import Recovery
+from arthur_acausal.errors import ParameterError, nearest
+from arthur_acausal.units import to_si
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True)
+class Relation:
+    """A comparison that makes events: true where root function g > 0, or >= 0 if ``inclusive``."""
+
+    label: str
+    where: str
+    inclusive: bool
+    time_only: bool
+
+
+@dataclass(frozen=True, slots=True)
+class WhenClause:
+    """One ``when``: carried out when its condition becomes true."""
+
+    label: str
+    where: str
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """What an event changes: ``when`` is the clause's number, -1 for a discrete equation, which always holds."""
+
+    kind: Literal["state", "discrete", "terminate"]
+    index: int
+    when: int
+    message: str
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pattern:
+    """A sparsity pattern in compressed columns: rows of column j are row[colind[j]:colind[j + 1]]."""
+
+    colind: IntArray
+    row: IntArray
+
+    @property
+    def nnz(self) -> int:
+        """How many structural nonzeros there are."""
+        return len(self.row)
+
+
+@dataclass(frozen=True, slots=True)
+class Attributes:
+    """Attributes of y, each (n,), for one vector of parameters; ``z_start`` (nz,) of the discrete variables."""
+
+    start: FloatArray
+    fixed: BoolArray
+    start_given: BoolArray
+    nominal: FloatArray
+    min: FloatArray
+    max: FloatArray
+    z_start: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class StartEntry:
+    """A start value kept behind the parameters in p: of y[index] (-1: of no y), times ``sign``."""
+
+    path: str
+    index: int
+    sign: int
+    fixed: bool
+    unit: str
+    place: int
+
+
+@dataclass(frozen=True)
+class CompiledDAE:
+    """F(t, y, y', p, u, z, m) = 0: n rows for the unknowns y (states first, then torn algebraic variables).
+
+    The vector p holds the parameters, then the start values of variables, then those of discrete variables.
+    z are the discrete variables (zp: before the event), m the frozen truth values of the relations.
+    """
+
+    name: str
+    y_paths: list[str]
+    differential: BoolArray
+    row_labels: list[str]
+    u_paths: list[str]
+    u_default: FloatArray
+    u_units: list[str]
+    z_paths: list[str]
+    relations: list[Relation]
+    whens: list[WhenClause]
+    assignments: list[Assignment]
+    sparsity: Pattern
+    init_sparsity: Pattern
+    init_labels: list[str]
+    nominal: FloatArray
+    minimum: FloatArray
+    maximum: FloatArray
+    parameters: ParameterTable
+    starts: list[StartEntry]
+    start_aliases: dict[str, tuple[int, int]] = field(repr=False)  # variable path -> (number of the entry, sign)
+    pivot_labels: list[str] = field(repr=False)
+    functions: dict[str, ca.Function] = field(repr=False)
+    recovery: Recovery = field(repr=False)
+
+    @property
+    def n(self) -> int:
+        """The number of unknowns."""
+        return len(self.y_paths)
+
+    @property
+    def n_init(self) -> int:
+        """The number of conditions that hold at the start only."""
+        return len(self.init_labels)
+
+    @cached_property
+    def z_start(self) -> FloatArray:
+        """Start values of the discrete variables for the default parameters."""
+        return self.attributes(self.parameter_vector()).z_start
+
+    def parameter_vector(
+        self, overrides: Mapping[str, Any] | None = None, start: Mapping[str, Any] | None = None
+    ) -> FloatArray:
+        """Return p for given parameters and start values, by path: SI numbers, text with a unit, or quantities.
+
+        Raises ParameterError for unknown paths, values out of bounds, and where a value makes the model singular.
+        """
+        p = self.parameters.vector(overrides)
+        values = np.asarray(self.functions["starts"](p), dtype=float).reshape(-1)
+        for path, value in (start or {}).items():
+            number, sign = self._start_entry(path)
+            values[number] = sign * to_si(value, self.starts[number].unit, path=path)
+        full = np.concatenate([p, values])
+        pivots = np.asarray(self.functions["pivots"](full), dtype=float).reshape(-1)
+        for value, label in zip(pivots.tolist(), self.pivot_labels, strict=True):
+            if value == 0.0 or not np.isfinite(value):
+                raise ParameterError(
+                    f"{label}: its coefficient is {value:g} for these parameters",
+                    cause="the equation was solved for this variable at translation",
+                    remedy="use a small value instead of zero, or write the equation so that it does not vanish",
+                )
+        return full
+
+    def _start_entry(self, path: str) -> tuple[int, int]:
+        if path not in self.start_aliases:
+            raise ParameterError(
+                f"there is no start value of {path!r}", path=path, remedy=nearest(path, self.start_aliases)
+            )
+        return self.start_aliases[path]
+
+    def attributes(self, p: FloatArray) -> Attributes:
+        """Return start, fixed, nominal, min and max of y, and the start of z, for a vector from parameter_vector."""
+        start = np.zeros(self.n)
+        given = np.zeros(self.n, dtype=bool)
+        fixed = np.zeros(self.n, dtype=bool)
+        z_start = np.zeros(len(self.z_paths))
+        for entry in self.starts:
+            if entry.sign == 0:
+                z_start[entry.index] = p[entry.place]
+            elif entry.index >= 0 and not np.isnan(p[entry.place]):
+                start[entry.index] = entry.sign * p[entry.place]
+                given[entry.index] = True
+                fixed[entry.index] |= entry.fixed
+        start = np.clip(start, self.minimum, self.maximum)
+        return Attributes(start, fixed, given, self.nominal, self.minimum, self.maximum, z_start)
+
+    def evaluator(self) -> Evaluator:
+        """Return the kernels with buffers of their own; one for each thread."""
+        return Evaluator(self)
+
+
+class Evaluator:
+    """Kernels on pinned arrays: write the arguments, call, read the (always same) result array.
+
+    t (1,), y, yp (n,), p, u, z, zp, m, cj (1,): see CompiledDAE.
+    """
+
+    def __init__(self, dae: CompiledDAE) -> None:
+        self._dae = dae
+        size = {"t": 1, "y": dae.n, "yp": dae.n, "u": len(dae.u_paths), "z": len(dae.z_paths), "m": len(dae.relations)}
+        self.t, self.y, self.yp, self.u, self.z, self.m = (np.zeros(k) for k in size.values())
+        self.p = dae.parameter_vector()
+        self.zp = np.zeros(len(dae.z_paths))
+        self.cj = np.ones(1)
+        self.u[:] = dae.u_default
+        self._continuous = [self.t, self.y, self.yp, self.p, self.u, self.z, self.m]
+        self.residual = self._kernel("residual")
+        self.jacobian = self._kernel("jacobian", self.cj)
+        self.roots = self._kernel("roots")
+
+    def _kernel(self, name: str, *further: FloatArray) -> Kernel:
+        return Kernel(self._dae.functions[name], [*self._continuous, *further])
+
+    @cached_property
+    def jacobian_y(self) -> Kernel:
+        """dF/dy, (nnz,) in the order of the DAE's sparsity."""
+        return self._kernel("jacobian_y")
+
+    @cached_property
+    def jacobian_yp(self) -> Kernel:
+        """dF/dy', (nnz,) in the order of the DAE's sparsity."""
+        return self._kernel("jacobian_yp")
+
+    @cached_property
+    def conditions(self) -> Kernel:
+        """The truth of each when's condition, (n_whens,)."""
+        return self._kernel("conditions", self.zp)
+
+    @cached_property
+    def when_values(self) -> Kernel:
+        """The right-hand side of each assignment, (n_assignments,)."""
+        return self._kernel("when_values", self.zp)
+
+    @cached_property
+    def initial(self) -> Kernel:
+        """Residuals of the conditions at the start, (n_init,)."""
+        return self._kernel("initial")
+
+    @cached_property
+    def initial_jacobian(self) -> Kernel:
+        """[dh/dy | dh/dy'] of the conditions at the start, in the order of the DAE's init_sparsity."""
+        return self._kernel("initial_jacobian")
+
+
+def pattern_of(matrix: ca.SX) -> Pattern:
+    """Return the sparsity pattern of a CasADi matrix."""
+    colind, row = matrix.sparsity().get_ccs()
+    return Pattern(np.array(colind, dtype=np.int32), np.array(row, dtype=np.int32))
+
+
+def as_bools(values: Sequence[bool]) -> BoolArray:
+    """Return an array of truth values."""
+    return np.array(values, dtype=bool)

@@ -1,0 +1,315 @@
+"""``generate``: from a structured system to a CompiledDAE."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from casadi import SX
+
+from arthur_acausal.codegen.assemble import (
+    Assembly,
+    assemble,
+    elements,
+    lookup,
+    reinit_target,
+)
+from arthur_acausal.codegen.compiled import (
+    Assignment,
+    CompiledDAE,
+    Relation,
+    StartEntry,
+    WhenClause,
+    as_bools,
+    pattern_of,
+)
+from arthur_acausal.codegen.kernel import compile_functions
+from arthur_acausal.codegen.parameters import ParameterInfo, ParameterTable
+from arthur_acausal.codegen.recovery import Recovery, Source
+from arthur_acausal.codegen.starts import StartSlot, attribute_arrays, collect_starts
+from arthur_acausal.errors import ParameterError
+from arthur_acausal.graph import strongly_connected
+from arthur_acausal.transform.rows import Row
+from arthur_acausal.transform.structured import StructuredDAE
+
+COMPILED = ("residual", "jacobian", "roots")
+
+
+def generate(dae: StructuredDAE, *, compile: str = "auto") -> CompiledDAE:
+    """Return the compiled system.
+
+    ``compile``: "auto" (by the system's C compiler where that pays), "always" or "never".
+    """
+    slots = collect_starts(dae)
+    n_discrete = len(dae.flat.scope.discrete)
+    assembly = assemble(dae, len(slots) + n_discrete)
+    y_place = {node: k for k, node in enumerate(assembly.y_nodes)}
+    table = _parameter_table(dae, assembly)
+    entries, aliases = _start_entries(dae, slots, y_place, len(table.infos))
+    functions, tables = _functions(dae, assembly, slots, y_place)
+    hot = compile_functions([functions[name] for name in COMPILED], mode=compile)
+    functions |= dict(zip(COMPILED, hot, strict=True))
+    nominal, minimum, maximum = attribute_arrays(dae, assembly.y_nodes)
+    flat, n_states = dae.flat, len(dae.causal.states)
+    return CompiledDAE(
+        name=flat.name,
+        y_paths=[dae.nodes.name(n) for n in assembly.y_nodes],
+        differential=as_bools([k < n_states for k in range(len(y_place))]),
+        row_labels=assembly.row_labels,
+        u_paths=[flat.variables[i].path for i in flat.inputs],
+        u_default=np.array([_number(flat.variables[i].value) for i in flat.inputs]),
+        u_units=[flat.variables[i].quantity.unit for i in flat.inputs],
+        z_paths=[d.path for d in flat.scope.discrete],
+        nominal=nominal,
+        minimum=minimum,
+        maximum=maximum,
+        parameters=table,
+        starts=entries,
+        start_aliases=aliases,
+        pivot_labels=[label for _, label in assembly.pivots],
+        functions=functions,
+        recovery=_recovery(dae, assembly, y_place),
+        **tables,
+    )
+
+
+def _number(value: Any) -> float:
+    return float(value) if value is not None else 0.0
+
+
+def _functions(
+    dae: StructuredDAE, assembly: Assembly, slots: list[StartSlot], y_place: dict[int, int]
+) -> tuple[dict[str, ca.Function], dict[str, Any]]:
+    a = assembly.arguments
+    arguments = a.continuous()
+    look, before = lookup(assembly, before=False), lookup(assembly, before=True)
+    residual = ca.vertcat(*assembly.residual) if assembly.residual else SX(0, 1)
+    dy, dyp = ca.jacobian(residual, a.y), ca.jacobian(residual, a.yp)
+    cj = SX.sym("cj")
+    both = dy + cj * dyp
+    pattern = both.sparsity()
+    roots = [dae.evaluator(_row(dae, r.relation.g, r), look) for r in dae.flat.relations]
+    conditions, values, whens, assignments = _whens(dae, before, y_place)
+    initial, labels = _initial(dae, assembly, slots)
+    slope = ca.horzcat(ca.jacobian(initial, a.y), ca.jacobian(initial, a.yp))
+    starts = [_start_value(dae, assembly, s.value) for s in slots]
+    starts += [_start_value(dae, assembly, d.start.value if d.start else 0.0) for d in dae.flat.scope.discrete]
+    make = ca.Function
+    functions = {
+        "residual": make("residual", arguments, [residual]),
+        "jacobian": make("jacobian", [*arguments, cj], [both]),
+        "roots": make("roots", arguments, [_column(roots)]),
+        "jacobian_y": make("jacobian_y", arguments, [ca.project(dy, pattern)]),
+        "jacobian_yp": make("jacobian_yp", arguments, [ca.project(dyp, pattern)]),
+        "conditions": make("conditions", a.event(), [_column(conditions)]),
+        "when_values": make("when_values", a.event(), [_column(values)]),
+        "initial": make("initial", arguments, [initial]),
+        "initial_jacobian": make("initial_jacobian", arguments, [slope]),
+        "starts": make("starts", [a.parameters], [_column(starts)]),
+        "pivots": make("pivots", [a.p], [_column([v for v, _ in assembly.pivots])]),
+    }
+    relations = [
+        Relation(f"{r.path}: {r.relation.text}".lstrip(": "), r.relation.where, r.relation.inclusive, _time_only(g, a))
+        for r, g in zip(dae.flat.relations, roots, strict=True)
+    ]
+    tables = {
+        "relations": relations,
+        "whens": whens,
+        "assignments": assignments,
+        "sparsity": pattern_of(both),
+        "init_sparsity": pattern_of(slope),
+        "init_labels": labels,
+    }
+    return functions, tables
+
+
+def _column(values: list[SX]) -> SX:
+    return ca.vertcat(*values) if values else SX(0, 1)
+
+
+def _row(dae: StructuredDAE, expression: Any, placed: Any) -> Row:
+    return dae.nodes.expression(expression, placed.shift, placed.path)
+
+
+def _time_only(g: SX, a: Any) -> bool:
+    """Tell whether g depends on time, affinely, and on nothing that changes between events."""
+    if any(ca.depends_on(g, x) for x in (a.y, a.yp, a.u) if x.numel()):
+        return False
+    return bool(ca.depends_on(g, a.t)) and not ca.depends_on(ca.jacobian(g, a.t), a.t)
+
+
+def _whens(
+    dae: StructuredDAE, look: Any, y_place: dict[int, int]
+) -> tuple[list[SX], list[SX], list[WhenClause], list[Assignment]]:
+    conditions: list[SX] = []
+    values: list[SX] = []
+    whens: list[WhenClause] = []
+    assignments: list[Assignment] = []
+    for item in dae.flat.clauses:
+        clause, label = item.clause, f"{item.path} {item.clause.label}".strip()
+        number = -1
+        if clause.condition is not None:
+            number = len(whens)
+            whens.append(WhenClause(label or "when", clause.where))
+            conditions.append(dae.evaluator(_row(dae, clause.condition, item), look))
+        for assignment in clause.assignments:
+            text = f"{label} ({assignment.where})"
+            value = dae.evaluator(_row(dae, assignment.value, item), look)
+            target = assignment.target
+            if target is None:
+                assignments.append(Assignment("terminate", -1, number, assignment.message, text))
+            elif target.kind == "discrete":
+                assignments.append(Assignment("discrete", target.index + item.shift.discrete, number, "", text))
+            else:
+                place, sign = reinit_target(dae, target.index + item.shift.variable, y_place, text)
+                value = sign * value
+                assignments.append(Assignment("state", place, number, "", text))
+            values.append(value)
+    return conditions, values, whens, assignments
+
+
+def _initial(dae: StructuredDAE, assembly: Assembly, slots: list[StartSlot]) -> tuple[SX, list[str]]:
+    look = lookup(assembly, before=False)
+    values: list[SX] = []
+    labels: list[str] = []
+    for equation in dae.flat.initial:
+        row = dae.nodes.row(equation)
+        values.append(dae.evaluator(row, look))
+        labels.append(f"initial equation {row.text}")
+    starts = elements(assembly.arguments.starts)
+    for k, slot in enumerate(slots):
+        if slot.fixed:
+            values.append(slot.sign * assembly.node_values[slot.node] - starts[k])
+            labels.append(f"fixed start of {slot.path}")
+    return _column(values), labels
+
+
+def _start_value(dae: StructuredDAE, assembly: Assembly, value: Any) -> SX:
+    """Return a start value as an expression of p; parameters in it are looked up."""
+    if value is None:
+        return SX.nan()
+    return SX(value) if not isinstance(value, SX) else parameter_expression(dae, assembly, value)
+
+
+def parameter_expression(dae: StructuredDAE, assembly: Assembly, value: SX) -> SX:
+    """Return an expression of the model's parameter symbols as one of the vector p."""
+    symbols = ca.symvar(value)
+    if not symbols:
+        return value
+    p = assembly.parameters
+    replaced = []
+    for symbol in symbols:
+        atom = dae.flat.scope.atom(symbol)
+        if atom is None or atom.kind != "parameter":
+            raise ParameterError(f"{value} contains {symbol}, which is no parameter of this model")
+        replaced.append(p[assembly.parameter_place[dae.flat.parameter(atom.index)]])
+    result: SX = ca.substitute(value, ca.vertcat(*symbols), ca.vertcat(*replaced))
+    return result
+
+
+def _start_entries(
+    dae: StructuredDAE, slots: list[StartSlot], y_place: dict[int, int], first: int
+) -> tuple[list[StartEntry], dict[str, tuple[int, int]]]:
+    variables = dae.flat.variables
+    entries = [
+        StartEntry(
+            s.path, y_place.get(s.node, -1), s.sign, s.fixed, variables[dae.nodes.all[s.node].variable].quantity.unit, first + k
+        )
+        for k, s in enumerate(slots)
+    ]
+    by_node: dict[int, int] = {}
+    for k, slot in enumerate(slots):
+        by_node.setdefault(slot.node, k)
+    aliases: dict[str, tuple[int, int]] = {}
+    for i, declared in enumerate(variables):
+        ref = dae.nodes.of_variable(i)
+        if ref.kind == "node" and ref.index in by_node:
+            number = by_node[ref.index]
+            aliases[declared.path] = (number, ref.sign * slots[number].sign)
+    for k, discrete in enumerate(dae.flat.scope.discrete):
+        aliases[discrete.path] = (len(slots) + k, 1)
+        entries.append(StartEntry(discrete.path, k, 0, True, discrete.quantity.unit, first + len(slots) + k))
+    return entries, aliases
+
+
+def _parameter_table(dae: StructuredDAE, assembly: Assembly) -> ParameterTable:
+    declared, same, place = dae.flat.scope.parameter, dae.flat.parameter_aliases, assembly.parameter_place
+    infos = []
+    dependent: list[tuple[int, SX]] = []
+    for i in place:
+        d = declared[i]
+        symbolic = isinstance(d.value, SX) and not d.value.is_constant()
+        if symbolic:
+            dependent.append((place[i], parameter_expression(dae, assembly, d.value)))
+        q = d.quantity
+        value = 0.0 if symbolic else float(d.value)
+        infos.append(ParameterInfo(d.path, q.unit, value, symbolic, q.min, q.max, q.description, q.display))
+    alias = {declared[i].path: declared[dae.flat.parameter(i)].path for i in same}
+    number = {info.path: k for k, info in enumerate(infos)}
+    return ParameterTable(infos, alias, _dependent_function(assembly, dependent, infos), number)
+
+
+def _dependent_function(
+    assembly: Assembly, dependent: list[tuple[int, SX]], infos: list[ParameterInfo]
+) -> ca.Function | None:
+    """Return (values, given) -> p, dependent parameters in an order in which each is known when it is needed."""
+    if not dependent:
+        return None
+    whole = assembly.parameters
+    at = {s.element_hash(): k for k, s in enumerate(whole)}
+    order = {k: j for j, (k, _) in enumerate(dependent)}
+    needs = [[order[i] for s in ca.symvar(e) if (i := at[s.element_hash()]) in order] for _, e in dependent]
+    values, given = SX.sym("values", len(infos)), SX.sym("given", len(infos))
+    result = elements(values)
+    chosen = elements(given)
+    for component in strongly_connected(needs):
+        if len(component) > 1 or component[0] in needs[component[0]]:
+            names = ", ".join(infos[dependent[j][0]].path for j in component)
+            raise ParameterError(f"parameters that depend on each other: {names}", remedy="give one of them a value")
+        k, expression = dependent[component[0]]
+        symbols = ca.symvar(expression)
+        own = ca.substitute(expression, ca.vertcat(*symbols), ca.vertcat(*[result[at[s.element_hash()]] for s in symbols]))
+        result[k] = ca.if_else(chosen[k], result[k], own)
+    return ca.Function("parameters", [values, given], [ca.vertcat(*result)])
+
+
+def _recovery(dae: StructuredDAE, assembly: Assembly, y_place: dict[int, int]) -> Recovery:
+    paths, sources, quantities = [], [], []
+    observed: list[SX] = []
+    place_of_node: dict[int, int] = {}
+
+    def source(node: int, sign: int) -> Source:
+        if node in y_place:
+            return Source("y", y_place[node], sign)
+        if node not in place_of_node:
+            place_of_node[node] = len(observed)
+            observed.append(assembly.node_values[node])
+        return Source("observed", place_of_node[node], sign)
+
+    for i, declared in enumerate(dae.flat.variables):
+        ref = dae.nodes.of_variable(i)
+        paths.append(declared.path)
+        quantities.append(declared.quantity)
+        kind = {"input": "u", "zero": "zero"}.get(ref.kind)
+        sources.append(source(ref.index, ref.sign) if kind is None else Source(kind, ref.index, ref.sign))
+    for k, declared in enumerate(dae.flat.scope.discrete):
+        paths.append(declared.path)
+        quantities.append(declared.quantity)
+        sources.append(Source("z", k, 1))
+    for i, declared in enumerate(dae.flat.scope.parameter):
+        paths.append(declared.path)
+        quantities.append(declared.quantity)
+        sources.append(Source("p", assembly.parameter_place[dae.flat.parameter(i)], 1))
+    units = [q.unit for q in quantities]
+    displays = [q.display for q in quantities]
+    descriptions = [q.description for q in quantities]
+    for node, (variable, order) in enumerate(dae.nodes.all):
+        if order:
+            paths.append(dae.nodes.name(node))
+            sources.append(source(node, 1))
+            units.append(f"{dae.flat.variables[variable].quantity.unit}/s^{order}")
+            displays.append(None)
+            descriptions.append("")
+    function = ca.Function("observed", assembly.arguments.continuous(), [_column(observed)])
+    return Recovery(paths, sources, units, displays, descriptions, function)

@@ -1,0 +1,177 @@
+"""The quantities that a component declares: parameters, variables, potentials, flows, signals, discrete variables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, overload
+
+from casadi import SX
+
+from arthur_acausal.errors import DeclarationError
+from arthur_acausal.units import parse_unit
+
+if TYPE_CHECKING:
+    import pint
+
+Kind: TypeAlias = Literal["parameter", "variable", "potential", "flow", "input", "output", "discrete"]
+StateSelect: TypeAlias = Literal["never", "avoid", "default", "prefer", "always"]
+Scalar: TypeAlias = "float | SX | pint.Quantity[Any] | str"
+Deferred: TypeAlias = Callable[[Any], "float | SX"]
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """A start value given by a modification: ``value`` in SI, and whether it is ``fixed`` (None: as declared)."""
+
+    value: Scalar | Deferred | None
+    fixed: bool | None = None
+    nominal: float | None = None
+
+
+Value: TypeAlias = "Scalar | Deferred | Start | Real"
+
+
+def start(value: Scalar | Deferred | None = None, *, fixed: bool | None = None, nominal: float | None = None) -> Start:
+    """Modify a variable's start value [SI, or a quantity with a unit], ``fixed`` attribute or nominal."""
+    return Start(value, fixed, nominal)
+
+
+@dataclass(slots=True, eq=False)
+class Real:
+    """One declared quantity: the declaration on the class, a CasADi symbol on an instance.
+
+    ``unit`` is coherent SI in pint's syntax; ``display`` names the unit that people read. ``default`` belongs to
+    parameters and signals, ``start``, ``fixed``, ``nominal`` and ``state_select`` to variables.
+    """
+
+    kind: Kind
+    unit: str
+    default: Scalar | Deferred | None = None
+    start: Scalar | Deferred | None = None
+    fixed: bool = False
+    nominal: float | None = None
+    min: float | None = None
+    max: float | None = None
+    state_select: StateSelect = "default"
+    display: str | None = None
+    description: str = ""
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        if parse_unit(self.unit).scale != 1.0:
+            raise DeclarationError(
+                f"the unit {self.unit!r} is not coherent SI",
+                remedy=f"declare the quantity in SI units and give display={self.unit!r}",
+            )
+        if self.nominal is not None and not self.nominal > 0.0:
+            raise DeclarationError(f"nominal must be positive, not {self.nominal}")
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    @property
+    def space(self) -> Literal["variable", "parameter", "discrete"]:
+        """The numbering that this quantity belongs to: all continuous unknowns share one."""
+        if self.kind in ("parameter", "discrete"):
+            return cast(Literal["parameter", "discrete"], self.kind)
+        return "variable"
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Real: ...
+    @overload
+    def __get__(self, instance: object, owner: type) -> SX: ...
+    def __get__(self, instance: Any, owner: type) -> Real | SX:
+        if instance is None:
+            return self
+        return cast(SX, instance._symbol(self))
+
+    def __set__(self, instance: object, value: Value) -> None:
+        raise DeclarationError(
+            f"{type(instance).__name__}.{self.name} cannot be assigned",
+            remedy=f"give it where the component is made: {type(instance).__name__}({self.name}=...)",
+        )
+
+
+_REQUIRED: Any = None
+
+
+def parameter(
+    unit: str,
+    *,
+    default: Scalar | Deferred = _REQUIRED,
+    min: float | None = None,
+    max: float | None = None,
+    display: str | None = None,
+    description: str = "",
+) -> Any:
+    """Declare a parameter [``unit``]: constant in time, may change between runs without a new translation.
+
+    Without ``default`` the caller must give it. ``default`` may be a function of the component, for a parameter
+    that depends on others: ``default=lambda self: 0.75 * self.area_a``.
+    """
+    return Real("parameter", unit, default=default, min=min, max=max, display=display, description=description)
+
+
+def variable(
+    unit: str,
+    *,
+    start: Scalar | Deferred | None = None,
+    fixed: bool = False,
+    nominal: float | None = None,
+    min: float | None = None,
+    max: float | None = None,
+    state_select: StateSelect = "default",
+    display: str | None = None,
+    description: str = "",
+) -> Real:
+    """Declare a continuous variable [``unit``], an unknown of the equations."""
+    return Real(
+        "variable", unit, None, start, fixed, nominal, min, max, state_select, display, description
+    )
+
+
+def potential(
+    unit: str,
+    *,
+    nominal: float | None = None,
+    min: float | None = None,
+    max: float | None = None,
+    display: str | None = None,
+    description: str = "",
+) -> Real:
+    """Declare a connector's potential [``unit``]: equal in all connectors of a connection set."""
+    return Real("potential", unit, nominal=nominal, min=min, max=max, display=display, description=description)
+
+
+def flow(unit: str, *, nominal: float | None = None, display: str | None = None, description: str = "") -> Real:
+    """Declare a connector's flow [``unit``], positive into the component: the sum over a connection set is zero."""
+    return Real("flow", unit, nominal=nominal, display=display, description=description)
+
+
+def real_input(
+    unit: str,
+    *,
+    default: Scalar | Deferred | None = None,
+    nominal: float | None = None,
+    min: float | None = None,
+    max: float | None = None,
+    display: str | None = None,
+    description: str = "",
+) -> Real:
+    """Declare a signal [``unit``] that comes from outside: by ``connect``, or as an external input of the run."""
+    return Real("input", unit, default, nominal=nominal, min=min, max=max, display=display, description=description)
+
+
+def real_output(
+    unit: str, *, nominal: float | None = None, display: str | None = None, description: str = ""
+) -> Real:
+    """Declare a signal [``unit``] that this component computes for others."""
+    return Real("output", unit, nominal=nominal, display=display, description=description)
+
+
+def discrete(
+    unit: str = "1", *, start: Scalar | Deferred = 0.0, display: str | None = None, description: str = ""
+) -> Real:
+    """Declare a discrete variable [``unit``]: constant between events, changed by ``when``; ``start`` holds at first."""
+    return Real("discrete", unit, start=start, fixed=True, display=display, description=description)

@@ -1,0 +1,122 @@
+"""Scopes: the numbering of everything declared below one root, and its CasADi symbols, created when asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+from casadi import SX
+
+from arthur_acausal.declare.quantity import Real, Start
+from arthur_acausal.errors import DeclarationError
+
+AtomKind: TypeAlias = Literal["variable", "der", "parameter", "discrete", "pre", "mode", "time"]
+
+
+class Atom(NamedTuple):
+    """What one symbol stands for: its kind, and its number among the variables, parameters, discretes or relations."""
+
+    kind: AtomKind
+    index: int
+
+
+@dataclass(slots=True)
+class Declared:
+    """One quantity at its place in the model: ``value`` is the modification or default of a parameter."""
+
+    path: str
+    quantity: Real
+    value: Any = None
+    start: Start | None = None
+    depth: int = 0  # of the modification's owner; 0 is the root: the outermost modification wins
+
+
+@dataclass(frozen=True, slots=True)
+class Relation:
+    """A comparison that makes events: true where ``g`` > 0, or >= 0 if ``inclusive``."""
+
+    g: SX
+    inclusive: bool
+    where: str
+    text: str
+
+
+@dataclass(slots=True)
+class Scope:
+    """All declared quantities below one root, by space, in the order of declaration."""
+
+    variable: list[Declared] = field(default_factory=list)
+    parameter: list[Declared] = field(default_factory=list)
+    discrete: list[Declared] = field(default_factory=list)
+    relations: list[Relation] = field(default_factory=list)
+    places: dict[tuple[int, int], Any] = field(default_factory=dict)  # (component object, its author) -> instance
+    shared: list[tuple[Any, Any]] = field(default_factory=list)  # (record of a component, the record that it stands for)
+    where: str = ""  # file:line of the statement that is being made
+    makes_events: bool = True
+    _symbols: dict[Atom, SX] = field(default_factory=dict)
+    _atoms: dict[int, Atom] = field(default_factory=dict)
+
+    def symbol(self, kind: AtomKind, index: int) -> SX:
+        """Return the symbol of an atom."""
+        atom = Atom(kind, index)
+        found = self._symbols.get(atom)
+        if found is None:
+            found = SX.sym(self.name(atom))
+            self._symbols[atom] = found
+            self._atoms[found.element_hash()] = atom
+        return found
+
+    def name(self, atom: Atom) -> str:
+        """Return how people read an atom."""
+        match atom.kind:
+            case "der":
+                return f"der({self.variable[atom.index].path})"
+            case "pre":
+                return f"pre({self.discrete[atom.index].path})"
+            case "mode":
+                return f"relation[{atom.index}]"
+            case "time":
+                return "time"
+            case _:
+                return str(getattr(self, atom.kind)[atom.index].path)
+
+    def atom(self, symbol: SX) -> Atom | None:
+        """Return what a symbol stands for; None if it is not a plain symbol of this scope."""
+        if not isinstance(symbol, SX) or symbol.numel() != 1 or not symbol.is_symbolic():
+            return None
+        return self._atoms.get(symbol.element_hash())
+
+    def quantity(self, atom: Atom) -> Real | None:
+        """Return the declaration behind an atom; None for time and relations."""
+        space = {"der": "variable", "pre": "discrete"}.get(atom.kind, atom.kind)
+        if space in ("time", "mode"):
+            return None
+        declared: Declared = getattr(self, space)[atom.index]
+        return declared.quantity
+
+
+_current: ContextVar[Scope | None] = ContextVar("scope", default=None)
+
+
+def current_scope(what: str) -> Scope:
+    """Return the scope whose equations are being written; ``what`` is named if there is none."""
+    scope = _current.get()
+    if scope is None:
+        raise DeclarationError(
+            f"{what} is used outside of equations() and build()",
+            remedy="equations are made where the component is instantiated: move it into equations()",
+        )
+    return scope
+
+
+@contextmanager
+def using(scope: Scope) -> Iterator[Scope]:
+    """Make ``scope`` the current one."""
+    token = _current.set(scope)
+    try:
+        yield scope
+    finally:
+        _current.reset(token)

@@ -1,0 +1,152 @@
+"""What equations are made of beside ``==``: der, pre, time, if_else, connect, when, reinit, terminate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import casadi as ca
+from casadi import SX
+
+from arthur_acausal.declare.model import Connector
+from arthur_acausal.declare.scope import Relation, Scope, current_scope
+from arthur_acausal.errors import DeclarationError
+
+Expression: TypeAlias = "SX | float"
+
+
+@dataclass(frozen=True, slots=True)
+class Connection:
+    """Two connectors, or two signals, that meet."""
+
+    a: Any
+    b: Any
+
+
+@dataclass(frozen=True, slots=True)
+class Reinit:
+    """At an event the state ``target`` jumps to ``value``."""
+
+    target: SX
+    value: SX
+
+
+@dataclass(frozen=True, slots=True)
+class Terminate:
+    """At an event the run ends, successfully, with a message."""
+
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class When:
+    """Statements that are carried out at the moment when ``condition`` becomes true."""
+
+    condition: SX
+    statements: tuple[Any, ...]
+
+
+def time() -> SX:
+    """Return the symbol of time [s]."""
+    return current_scope("time()").symbol("time", 0)
+
+
+def der(x: SX) -> SX:
+    """Return the time derivative of a variable, or of an expression by the chain rule."""
+    scope = current_scope("der()")
+    atom = scope.atom(x)
+    if atom is not None and atom.kind == "variable":
+        return scope.symbol("der", atom.index)
+    if not isinstance(x, SX):
+        raise DeclarationError("der() takes a variable or an expression of variables", where=scope.where)
+    result = SX(0.0)
+    for symbol in ca.symvar(x):
+        found = scope.atom(symbol)
+        if found is None or found.kind in ("parameter", "discrete", "pre", "mode"):
+            continue
+        if found.kind == "der":
+            raise DeclarationError(
+                f"second derivative of {scope.variable[found.index].path}",
+                where=scope.where,
+                remedy="declare a variable for the first derivative: v == der(s), then der(v)",
+            )
+        rate = SX(1.0) if found.kind == "time" else scope.symbol("der", found.index)
+        result = result + ca.jacobian(x, symbol) * rate
+    return result
+
+
+def pre(x: SX) -> SX:
+    """Return the value just before the event: of a discrete variable, or (inside ``when``) of a continuous one."""
+    scope = current_scope("pre()")
+    atom = scope.atom(x)
+    if atom is None or atom.kind not in ("discrete", "variable"):
+        raise DeclarationError("pre() takes a variable", where=scope.where)
+    return scope.symbol("pre", atom.index) if atom.kind == "discrete" else x
+
+
+def if_else(condition: Expression | bool, then: Expression, otherwise: Expression) -> SX:
+    """Return ``then`` where ``condition`` holds, else ``otherwise``; each relation of the condition makes an event."""
+    scope = current_scope("if_else()")
+    if isinstance(condition, bool):
+        return SX(then if condition else otherwise)
+    if not scope.makes_events:
+        return smooth_if_else(condition, then, otherwise)
+    return smooth_if_else(event_condition(scope, SX(condition)), then, otherwise)
+
+
+def smooth_if_else(condition: Expression, then: Expression, otherwise: Expression) -> SX:
+    """Return ``then`` where ``condition`` holds, else ``otherwise``, without an event.
+
+    For laws that are continuous where the condition changes: the integrator's error control meets the kink.
+    """
+    return ca.if_else(condition, then, otherwise)  # type: ignore[no-any-return]
+
+
+def event_condition(scope: Scope, condition: SX) -> SX:
+    """Return ``condition`` with every relation in it replaced by the symbol of its frozen mode."""
+    if condition.is_constant() or condition.is_symbolic():
+        return condition
+    op = condition.op()
+    if op in (ca.OP_LT, ca.OP_LE):
+        left, right = condition.dep(0), condition.dep(1)
+        relation = Relation(right - left, op == ca.OP_LE, scope.where, str(condition))
+        scope.relations.append(relation)
+        return scope.symbol("mode", len(scope.relations) - 1)
+    if op == ca.OP_NOT:
+        return ca.logic_not(event_condition(scope, condition.dep(0)))  # type: ignore[no-any-return]
+    if op in (ca.OP_AND, ca.OP_OR):
+        parts = event_condition(scope, condition.dep(0)), event_condition(scope, condition.dep(1))
+        return ca.logic_and(*parts) if op == ca.OP_AND else ca.logic_or(*parts)  # type: ignore[no-any-return]
+    raise DeclarationError(
+        f"{condition} is no condition",
+        where=scope.where,
+        cause="a condition is made of <, <=, >, >= and casadi's logic_and, logic_or, logic_not",
+    )
+
+
+def connect(a: Any, b: Any) -> Connection:
+    """Connect two connectors (potentials equal, flows sum to zero), or an output signal to an input signal."""
+    for side in (a, b):
+        if not isinstance(side, Connector | SX):
+            raise DeclarationError(
+                f"connect() takes connectors or signals, not {side!r}", where=current_scope("connect()").where
+            )
+    return Connection(a, b)
+
+
+def when(condition: SX, *statements: Any) -> When:
+    """At the moment when ``condition`` becomes true: ``reinit`` states, set discrete variables (``d == value``)."""
+    scope = current_scope("when()")
+    if not statements:
+        raise DeclarationError("when() without statements", where=scope.where)
+    return When(event_condition(scope, SX(condition)), statements)
+
+
+def reinit(target: SX, value: Expression) -> Reinit:
+    """Inside ``when``: let the state ``target`` jump to ``value``."""
+    return Reinit(target, SX(value))
+
+
+def terminate(message: str) -> Terminate:
+    """Inside ``when``: end the run with a message."""
+    return Terminate(message)

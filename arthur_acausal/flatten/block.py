@@ -1,0 +1,228 @@
+"""Running ``equations()``: the statements of one component, each with its label and source line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import casadi as ca
+from casadi import SX
+
+from arthur_acausal.declare.model import Component
+from arthur_acausal.declare.scope import Atom, Scope, using
+from arthur_acausal.declare.statement import Connection, Reinit, Terminate, When
+from arthur_acausal.errors import ArthurError, DeclarationError
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Expression:
+    """An expression over the symbols of a scope; ``atoms`` are what its symbols stand for, in their order."""
+
+    value: SX
+    symbols: list[SX]
+    atoms: list[Atom]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Equation:
+    """``lhs == rhs``; ``residual`` is lhs - rhs."""
+
+    lhs: SX
+    rhs: SX
+    residual: Expression
+    label: str
+    where: str
+
+    @property
+    def symbols(self) -> list[SX]:
+        """The symbols of both sides."""
+        return self.residual.symbols
+
+    @property
+    def atoms(self) -> list[Atom]:
+        """What the symbols stand for."""
+        return self.residual.atoms
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Assignment:
+    """At an event ``target`` (a variable or a discrete) takes ``value``; or the run ends with ``message``."""
+
+    target: Atom | None
+    value: Expression
+    message: str
+    where: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Clause:
+    """The assignments of one ``when``; ``condition`` None: they hold at every event (a discrete equation)."""
+
+    condition: Expression | None
+    assignments: tuple[Assignment, ...]
+    label: str
+    where: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Comparison:
+    """A relation that makes events: true where ``g`` > 0, or >= 0 if ``inclusive``."""
+
+    g: Expression
+    inclusive: bool
+    where: str
+    text: str
+
+
+@dataclass(slots=True)
+class Block:
+    """All statements of one component."""
+
+    equations: list[Equation] = field(default_factory=list)
+    initial: list[Equation] = field(default_factory=list)
+    connections: list[tuple[Connection, str]] = field(default_factory=list)
+    clauses: list[Clause] = field(default_factory=list)
+    relations: list[Comparison] = field(default_factory=list)
+
+
+def run_block(component: Component, scope: Scope) -> Block:
+    """Run ``equations()`` and ``initial_equations()`` of a bound component."""
+    block = Block()
+    first = len(scope.relations)
+    with using(scope):
+        for statement, label, where in _statements(component, scope, "equations"):
+            _sort(statement, label, where, component, scope, block)
+        for statement, label, where in _statements(component, scope, "initial_equations"):
+            if not _is_equation(statement):
+                raise _bad(component, where, f"initial_equations() yields equations only, not {statement!r}")
+            block.initial.append(make_equation(statement, label, where, scope))
+    block.relations = [
+        Comparison(make_expression(r.g, r.where, scope), r.inclusive, r.where, r.text) for r in scope.relations[first:]
+    ]
+    return block
+
+
+def _statements(component: Component, scope: Scope, method: str) -> Iterator[tuple[Any, str, str]]:
+    """Yield (statement, label, file:line); a statement may be yielded alone or as (label, statement)."""
+    generator = getattr(component, method)()
+    if not hasattr(generator, "gi_frame"):
+        raise _bad(component, "", f"{method}() must be a generator: yield the equations")
+    while True:
+        made = len(scope.relations)
+        try:
+            item = next(generator)
+        except StopIteration:
+            return
+        except ArthurError as error:
+            assert component._binding is not None
+            error.path = error.path or component._binding.path
+            error.where = error.where or _traced(error, component)
+            raise
+        except Exception as error:
+            if "truth value" in str(error) or "__bool__" in str(error) or "Cannot convert" in str(error):
+                raise _bad(
+                    component,
+                    _traced(error, component),
+                    "a Python `if` (or `and`, `or`, `not`, max, min) on a symbol, whose value is not known here",
+                    remedy="use if_else(condition, a, b), casadi.logic_and / logic_or, casadi.fmax / fmin",
+                ) from error
+            raise _bad(component, _traced(error, component), f"{method}() failed: {error}") from error
+        where = _line(generator)
+        for i in range(made, len(scope.relations)):
+            scope.relations[i] = replace(scope.relations[i], where=where)
+        label, statement = item if isinstance(item, tuple) and len(item) == 2 else ("", item)
+        yield statement, label, where
+
+
+def _line(generator: Any) -> str:
+    while getattr(generator, "gi_yieldfrom", None) is not None and hasattr(generator.gi_yieldfrom, "gi_frame"):
+        generator = generator.gi_yieldfrom
+    frame = generator.gi_frame
+    return f"{frame.f_code.co_filename.rsplit('/', 1)[-1]}:{frame.f_lineno}"
+
+
+def _traced(error: BaseException, component: Component) -> str:
+    """Return file:line of the innermost frame that is the model's own code, not this package's declare layer."""
+    found = ""
+    trace = error.__traceback__
+    while trace is not None:
+        name = trace.tb_frame.f_code.co_filename
+        if "/arthur_acausal/declare/" not in name and "/casadi/" not in name and not name.endswith("flatten/block.py"):
+            found = f"{name.rsplit('/', 1)[-1]}:{trace.tb_lineno}"
+        trace = trace.tb_next
+    return found or component._where
+
+
+def _bad(component: Component, where: str, message: str, remedy: str = "") -> DeclarationError:
+    assert component._binding is not None
+    path = component._binding.path or type(component).__name__
+    return DeclarationError(message, path=path, where=where, remedy=remedy)
+
+
+def _is_equation(statement: Any) -> bool:
+    return isinstance(statement, SX) and statement.numel() == 1 and not statement.is_leaf() and statement.op() == ca.OP_EQ
+
+
+def _sort(statement: Any, label: str, where: str, component: Component, scope: Scope, block: Block) -> None:
+    if isinstance(statement, Connection):
+        block.connections.append((statement, where))
+    elif isinstance(statement, When):
+        assignments = tuple(_assignment(s, where, component, scope) for s in statement.statements)
+        condition = make_expression(statement.condition, where, scope)
+        block.clauses.append(Clause(condition, assignments, label, where))
+    elif _is_equation(statement):
+        target = scope.atom(statement.dep(0))
+        if target is not None and target.kind == "discrete":
+            block.clauses.append(Clause(None, (_assignment(statement, where, component, scope),), label, where))
+        else:
+            block.equations.append(make_equation(statement, label, where, scope))
+    elif isinstance(statement, bool) or (isinstance(statement, SX) and statement.is_constant()):
+        truth = "true" if bool(statement) else "false"
+        raise _bad(component, where, f"an equation that is always {truth}", "both sides are the same expression or numbers")
+    else:
+        raise _bad(
+            component, where, f"{statement!r} is no equation", "yield lhs == rhs, a pair (label, lhs == rhs), connect(...) or when(...)"
+        )
+
+
+def _assignment(statement: Any, where: str, component: Component, scope: Scope) -> Assignment:
+    if isinstance(statement, Terminate):
+        return Assignment(None, make_expression(SX(0.0), where, scope), statement.message, where)
+    if isinstance(statement, Reinit):
+        target = scope.atom(statement.target)
+        if target is None or target.kind != "variable":
+            raise _bad(component, where, "reinit() takes a variable as its target")
+        return Assignment(target, make_expression(statement.value, where, scope), "", where)
+    if _is_equation(statement):
+        target = scope.atom(statement.dep(0))
+        if target is not None and target.kind == "discrete":
+            return Assignment(target, make_expression(statement.dep(1), where, scope), "", where)
+    raise _bad(
+        component,
+        where,
+        "inside when() stand reinit(state, value), terminate(message), and discrete == value",
+        "declare what changes at events only as discrete(...)",
+    )
+
+
+def make_equation(statement: SX, label: str, where: str, scope: Scope) -> Equation:
+    """Return the equation behind a ``lhs == rhs``, its symbols looked up in ``scope``."""
+    lhs, rhs = statement.dep(0), statement.dep(1)
+    return Equation(lhs, rhs, make_expression(lhs - rhs, where, scope), label, where)
+
+
+def make_expression(value: SX, where: str, scope: Scope) -> Expression:
+    """Return the expression with its symbols looked up in ``scope``."""
+    symbols = ca.symvar(value)
+    atoms = []
+    for symbol in symbols:
+        atom = scope.atom(symbol)
+        if atom is None:
+            raise DeclarationError(
+                f"{symbol} belongs to no component of this model",
+                where=where,
+                remedy="use the quantities of this component and of its parts only",
+            )
+        atoms.append(atom)
+    return Expression(value, symbols, atoms)

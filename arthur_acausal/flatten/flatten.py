@@ -1,0 +1,177 @@
+"""``flatten``: one pass over the tree of components, from the root down."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass, field
+from functools import cache
+
+import casadi as ca
+from casadi import SX
+
+from arthur_acausal.declare.model import Component, bind
+from arthur_acausal.declare.scope import Atom, Relation, Scope, using
+from arthur_acausal.errors import ConnectError, DeclarationError
+from arthur_acausal.flatten.balance import check_balance, connectors_of, count, parts_of
+from arthur_acausal.flatten.block import Block, Equation, Expression, run_block
+from arthur_acausal.flatten.connections import Connections, Node, first_variable, flow_sums, join, path_of
+from arthur_acausal.flatten.dimensions import check_homogeneous
+from arthur_acausal.flatten.media import unify_media
+from arthur_acausal.flatten.system import FlatClause, FlatEquation, FlatRelation, FlatSystem, Shift
+from arthur_acausal.flatten.template import rebased, structure_key
+
+
+def flatten(model: Component, *, name: str = "", check_units: bool = True) -> FlatSystem:
+    """Return the flat system of a model.
+
+    Raises the errors of errors.py for whatever is wrong with a declaration, a connection, a unit or a balance.
+    """
+    if not isinstance(model, Component):
+        raise DeclarationError(
+            f"{model!r} is no component", remedy="give an instance: translate(Jack()), not translate(Jack)"
+        )
+    scope = Scope()
+    with using(scope):
+        root = bind(model, "", scope, None)
+    assert isinstance(root, Component)
+    components = _walk(root)
+    work = _Work(scope, check_units)
+    for component in components:
+        if parts_of(component):
+            _add_whole(component, work)
+    same = unify_media(components, work.found, scope.shared)
+    for component in components:
+        if not parts_of(component):
+            _add_leaf(component, work)
+    return _finish(root, components, name or type(model).__name__, same, work)
+
+
+@dataclass(slots=True)
+class _Work:
+    """What is collected on the way."""
+
+    scope: Scope
+    check_units: bool
+    found: Connections = field(default_factory=Connections)
+    equations: list[FlatEquation] = field(default_factory=list)
+    initial: list[FlatEquation] = field(default_factory=list)
+    relations: list[FlatRelation] = field(default_factory=list)
+    clauses: list[FlatClause] = field(default_factory=list)
+    blocks: dict[Hashable, Block] = field(default_factory=dict)
+
+
+def _walk(root: Component) -> list[Component]:
+    """Return all components, owners before their parts."""
+    found, stack = [], [root]
+    while stack:
+        component = stack.pop()
+        found.append(component)
+        stack.extend(reversed(parts_of(component)))
+    return found
+
+
+def _add_whole(component: Component, work: _Work) -> None:
+    """Run a component's statements on the model's own symbols: for hierarchical ones, which are used once."""
+    block = run_block(component, work.scope)
+    made = len(work.found.aliases)
+    for connection, where in block.connections:
+        join(connection.a, connection.b, component, work.scope, where, work.found)
+    _check_block(component, block, work, work.scope, len(work.found.aliases) - made + _flow_equations(component, work))
+    _place(component, block, Shift(), work)
+
+
+def _flow_equations(component: Component, work: _Work) -> int:
+    """Return how many flow sums and default inputs the component's connections make."""
+    sets: dict[Node, int] = {}
+    for connector in [c for part in parts_of(component) for c in connectors_of(part)]:
+        sets[work.found.find(Node(first_variable(connector), False))] = count([connector]).flow
+    inputs = sum(q.kind == "input" for p in parts_of(component) for q in p._declarations.quantities.values())
+    driven = 0
+    for part in parts_of(component):
+        assert part._binding is not None
+        for name, quantity in part._declarations.quantities.items():
+            number = part._binding.first["variable"] + part._declarations.slot[name]
+            driven += quantity.kind == "input" and number in work.found.driver
+    return sum(sets.values()) + inputs - driven
+
+
+def _add_leaf(component: Component, work: _Work) -> None:
+    """Place the block of the component's class; run it where it is met for the first time."""
+    binding = component._binding
+    assert binding is not None
+    key = structure_key(component)
+    if key is None:
+        _add_whole(component, work)
+        return
+    block = work.blocks.get(key)
+    if block is None:
+        copy, scope = rebased(component)
+        block = run_block(copy, scope)
+        if block.connections:
+            raise ConnectError("connect() joins parts; this component has none", path=path_of(component))
+        _check_block(copy, block, work, scope, 0)
+        work.blocks[key] = block
+    shift = Shift(
+        binding.first["variable"], binding.first["parameter"], binding.first["discrete"], len(work.scope.relations)
+    )
+    work.scope.relations.extend(Relation(r.g.value, r.inclusive, r.where, r.text) for r in block.relations)
+    _place(component, block, shift, work)
+
+
+def _check_block(component: Component, block: Block, work: _Work, scope: Scope, connection_equations: int) -> None:
+    check_balance(component, block, connection_equations)
+    if work.check_units:
+        for equation in block.equations + block.initial:
+            check_homogeneous(equation, scope, path_of(component) or type(component).__name__)
+
+
+def _place(component: Component, block: Block, shift: Shift, work: _Work) -> None:
+    path = path_of(component)
+    work.equations.extend(FlatEquation(e, path, shift) for e in block.equations)
+    work.initial.extend(FlatEquation(e, path, shift) for e in block.initial)
+    work.relations.extend(FlatRelation(r, path, shift) for r in block.relations)
+    work.clauses.extend(FlatClause(c, path, shift) for c in block.clauses)
+
+
+def _finish(root: Component, components: list[Component], name: str, same: dict[int, int], work: _Work) -> FlatSystem:
+    connectors = [c for component in components for c in connectors_of(component)]
+    for total in flow_sums(connectors, work.found, work.scope):
+        work.equations.append(
+            FlatEquation(_sum_equation(total.signs, total.where), total.path, indices=total.indices)
+        )
+    inputs = [
+        i for i, d in enumerate(work.scope.variable) if d.quantity.kind == "input" and i not in work.found.driver
+    ]
+    for i in inputs:
+        declared = work.scope.variable[i]
+        if declared.value is None and "." in declared.path:
+            raise ConnectError(
+                "the input is not connected and has no default",
+                path=declared.path,
+                remedy="connect it to an output, or declare real_input(..., default=...)",
+            )
+    return FlatSystem(
+        name,
+        work.scope,
+        work.equations,
+        work.initial,
+        work.found.aliases,
+        work.relations,
+        work.clauses,
+        inputs,
+        same,
+        components,
+    )
+
+
+@cache
+def _sum_of(signs: tuple[int, ...]) -> Expression:
+    symbols = [SX.sym(f"flow_{i}") for i in range(len(signs))]
+    total = ca.sum1(ca.vertcat(*[s * x for s, x in zip(signs, symbols, strict=True)]))
+    return Expression(total, symbols, [Atom("variable", i) for i in range(len(signs))])
+
+
+@cache
+def _sum_equation(signs: tuple[int, ...], where: str) -> Equation:
+    total = _sum_of(signs)
+    return Equation(total.value, SX(0.0), total, "flow balance", where)

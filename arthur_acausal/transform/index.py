@@ -1,0 +1,126 @@
+"""Index reduction: Pantelides (1988) and dummy derivatives (Mattsson and Soderlind, 1993)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import casadi as ca
+from casadi import SX
+
+from arthur_acausal.declare.scope import Atom
+from arthur_acausal.errors import StructureError
+from arthur_acausal.flatten.block import Expression
+from arthur_acausal.graph import PRIORITIES, StructurallySingular, pantelides, select_states
+from arthur_acausal.transform.linear import Coefficient, LinearAnalysis
+from arthur_acausal.transform.rows import Evaluator, Nodes, Ref, Row, incidence
+
+
+@dataclass(frozen=True, slots=True)
+class ReducedSystem:
+    """A system of index one: as many rows as unknowns.
+
+    ``edges``: node -> coefficient for each row. ``dummies``: derivative nodes that became algebraic unknowns.
+    ``differentiated``: the rows that were differentiated, as text. ``index``: 0 or 1 as it was, 2 and more where
+    rows were differentiated (once, twice, ...).
+    """
+
+    rows: list[Row]
+    edges: list[dict[int, Coefficient]]
+    dummies: frozenset[int]
+    differentiated: list[str]
+    index: int
+
+
+def reduce_index(rows: list[Row], nodes: Nodes, linear: LinearAnalysis, evaluator: Evaluator) -> ReducedSystem:
+    """Differentiate what must be differentiated; nodes of new derivatives are appended to ``nodes``.
+
+    Raises StructureError where no number of differentiations makes equations and unknowns match.
+    """
+    edges = [incidence(row, linear) for row in rows]
+    try:
+        result = pantelides([list(e) for e in edges], nodes.derivative)
+    except StructurallySingular as singular:
+        raise _singular(singular, rows, nodes) from None
+    if len(result.edges) == len(rows):
+        index = int(any(not nodes.all[n].order for n in result.assignment if n >= 0))
+        return ReducedSystem(rows, edges, frozenset(), [], index)
+    made = len(nodes.all)
+    for successor, node in sorted((s, n) for n, s in enumerate(result.derivative) if s >= made):
+        number = nodes.derivative_of(node)
+        assert number == successor, "derivative nodes are numbered as Pantelides' algorithm numbers them"
+    rows = list(rows)
+    for equation in range(len(rows), len(result.edges)):
+        origin = result.equation_derivative.index(equation)
+        rows.append(_differentiated(rows[origin], nodes, linear, evaluator))
+        edges.append(incidence(rows[-1], linear))
+    priority = [PRIORITIES[nodes.flat.variables[v].quantity.state_select] for v, _ in nodes.all]
+    try:
+        chosen = select_states(
+            [_firm(e) for e in edges], result.derivative, result.equation_derivative, priority
+        )
+    except StructurallySingular as singular:
+        raise _singular(singular, rows, nodes) from None
+    texts = [rows[e].text for e, successor in enumerate(result.equation_derivative) if successor >= 0]
+    return ReducedSystem(rows, edges, frozenset(chosen.dummies), texts, 1 + _depth(result.equation_derivative))
+
+
+def _firm(edges: dict[int, Coefficient]) -> list[int]:
+    """Order the unknowns of a row: those with a constant coefficient first, which can never vanish."""
+    return sorted(edges, key=lambda n: 0 if isinstance(edges[n], float) else 1 if edges[n] is not None else 2)
+
+
+def _depth(successors: Sequence[int]) -> int:
+    depth = [0] * len(successors)
+    for e in range(len(successors) - 1, -1, -1):
+        if successors[e] >= 0:
+            depth[e] = 1 + depth[successors[e]]
+    return max(depth)
+
+
+def _differentiated(row: Row, nodes: Nodes, linear: LinearAnalysis, evaluator: Evaluator) -> Row:
+    """Return the time derivative of a row, over symbols of its own."""
+    symbols: dict[Ref, SX] = {}
+
+    def symbol(ref: Ref) -> SX:
+        if ref.kind == "zero":
+            return SX(0.0)
+        plain = Ref(ref.kind, ref.index)
+        if plain not in symbols:
+            symbols[plain] = SX.sym(nodes.name(ref.index) if ref.kind == "node" else f"{ref.kind}_{ref.index}")
+        return symbols[plain]
+
+    value = evaluator(row, symbol)
+    total = SX(0.0)
+    for ref, own in list(symbols.items()):
+        slope = ca.jacobian(value, own)
+        if slope.nnz() == 0 or ref.kind in ("parameter", "discrete", "pre", "mode"):
+            continue
+        if ref.kind == "input":
+            raise StructureError(
+                f"{row.text}: must be differentiated, but it depends on an external input",
+                cause="a constraint between states contains a signal whose derivative is not known",
+                remedy="pass the signal through a filter within the model",
+            )
+        rate = SX(1.0) if ref.kind == "time" else symbol(Ref("node", nodes.derivative_of(ref.index)))
+        total = total + slope * rate
+    used = {s.element_hash() for s in ca.symvar(total)}
+    refs = [ref for ref, own in symbols.items() if own.element_hash() in used]
+    atoms = [Atom("variable" if r.kind == "node" else "parameter" if r.kind == "parameter" else "time", r.index) for r in refs]
+    expression = Expression(total, [symbols[r] for r in refs], atoms)
+    return Row(expression, tuple(refs), f"der({row.text})")
+
+
+def _singular(singular: StructurallySingular, rows: list[Row], nodes: Nodes) -> StructureError:
+    equations = [rows[e].text for e in singular.equations]
+    variables = [nodes.name(v) for v in singular.variables]
+    parts = []
+    if equations:
+        parts.append("too many equations for their unknowns: " + "; ".join(equations[:12]))
+    if variables:
+        parts.append("not determined: " + ", ".join(variables[:12]))
+    return StructureError(
+        "the system is structurally singular: " + ". ".join(parts),
+        path=rows[singular.equations[0]].text.split(" ")[0] if equations else variables[0] if variables else "",
+        remedy="remove one of the equations named" if equations else "add an equation that determines one of them",
+    )

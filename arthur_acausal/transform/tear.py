@@ -1,0 +1,97 @@
+"""Causalisation: matching, block triangular form, and explicit assignments where an equation can be solved by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from arthur_acausal.errors import StructureError
+from arthur_acausal.graph import blt, dulmage_mendelsohn, matching, tear
+from arthur_acausal.transform.index import ReducedSystem
+from arthur_acausal.transform.linear import Coefficient
+from arthur_acausal.transform.rows import Nodes
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """The row that is solved for a node, by its coefficient, in the order of the list that holds it."""
+
+    row: int
+    node: int
+    coefficient: Coefficient
+
+
+@dataclass(frozen=True, slots=True)
+class CausalSystem:
+    """What the integrator sees and what is computed from it.
+
+    ``states``: nodes with a derivative. ``torn``: algebraic nodes that stay unknowns. ``assignments``: in order.
+    ``residuals``: the rows that remain. ``chained``: states whose derivative is a state again. ``blocks``: sizes of
+    the diagonal blocks with more than one equation, as (equations, torn).
+    """
+
+    states: list[int]
+    torn: list[int]
+    assignments: list[Assignment]
+    residuals: list[int]
+    chained: list[int]
+    blocks: list[tuple[int, int]]
+    n_blocks: int
+
+
+def causalise(system: ReducedSystem, nodes: Nodes) -> CausalSystem:
+    """Order the system: derivatives of states count as known to the integrator, algebraic unknowns are assigned."""
+    states = [n for n, d in enumerate(nodes.derivative) if d >= 0 and d not in system.dummies]
+    is_state = set(states)
+    rates = {nodes.derivative[n] for n in states if nodes.derivative[n] not in is_state}
+    unknown = [n for n in range(len(nodes.all)) if n not in is_state]
+    place = {n: k for k, n in enumerate(unknown)}
+    edges = [_ordered(e, place, rates) for e in system.edges]
+    assigned = matching(edges, len(unknown))
+    if min(assigned, default=0) < 0 or len(edges) != len(unknown):
+        raise _unmatched(edges, assigned, unknown, system, nodes)
+    solvable = [
+        {place[n] for n, c in e.items() if c is not None and n in place and n not in rates} for e in system.edges
+    ]
+    algebraic = [[v for v in row if unknown[v] not in rates] for row in edges]
+    assignments: list[Assignment] = []
+    torn: list[int] = []
+    residuals: list[int] = []
+    sizes: list[tuple[int, int]] = []
+    blocks = blt(edges, assigned)
+    for block in blocks:
+        inside = [assigned[e] for e in block if unknown[assigned[e]] not in rates]
+        result = tear(block, inside, algebraic, solvable)
+        for row, variable in result.sequence:
+            node = unknown[variable]
+            assignments.append(Assignment(row, node, system.edges[row][node]))
+        torn += [unknown[v] for v in result.torn_variables]
+        residuals += result.residual_equations
+        if len(block) > 1:
+            sizes.append((len(block), len(result.torn_variables)))
+    chained = [n for n in states if nodes.derivative[n] in is_state]
+    return CausalSystem(states, torn, assignments, sorted(residuals), chained, sizes, len(blocks))
+
+
+def _ordered(edges: dict[int, Coefficient], place: dict[int, int], rates: set[int]) -> list[int]:
+    """Order a row's unknowns by how gladly it determines them: rates, constant and parameter coefficients, others."""
+
+    def rank(node: int) -> int:
+        if node in rates:
+            return 0
+        coefficient = edges[node]
+        return 1 if isinstance(coefficient, float) else 2 if coefficient is not None else 3
+
+    return [place[n] for n in sorted((n for n in edges if n in place), key=rank)]
+
+
+def _unmatched(
+    edges: list[list[int]], assigned: list[int], unknown: list[int], system: ReducedSystem, nodes: Nodes
+) -> StructureError:
+    parts = dulmage_mendelsohn(edges, len(unknown), assigned)
+    equations = "; ".join(system.rows[e].text for e in parts.over_equations[:12])
+    variables = ", ".join(nodes.name(unknown[v]) for v in parts.under_variables[:12])
+    return StructureError(
+        f"{len(edges)} equations for {len(unknown)} unknowns do not match",
+        cause=f"too many equations: {equations}. Not determined: {variables}",
+        remedy="remove an equation named, and add one for what is not determined",
+    )
