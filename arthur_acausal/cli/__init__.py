@@ -1,1 +1,10 @@
 """The command line `arthur`."""
+
+from __future__ import annotations
+
+
+def main() -> None:
+    """Run the command that `sys.argv` names, and exit with its status."""
+    from arthur_acausal.cli.app import app
+
+    app(prog_name="arthur")

@@ -158,6 +158,15 @@ def finish(figure: Figure, axes: Sequence[Axes], solution: Solution) -> None:
 
 def write(figure: Figure, file: str | os.PathLike[str]) -> None:
     """Write a picture; its format follows from the name."""
+    kind = check_format(file)
+    buffer = io.BytesIO()
+    with style():
+        figure.savefig(buffer, format=kind)
+    write_atomically(file, buffer.getvalue())
+
+
+def check_format(file: str | os.PathLike[str]) -> str:
+    """The format that a file's name asks for. Raises ResultError where pictures are not written so."""
     kind = Path(file).suffix.lower().removeprefix(".")
     if kind not in FORMATS:
         raise ResultError(
@@ -165,7 +174,4 @@ def write(figure: Figure, file: str | os.PathLike[str]) -> None:
             cause=f"pictures are not written as {kind!r}" if kind else "its name has no ending",
             remedy=f"end the name in {', '.join('.' + known for known in FORMATS)}",
         )
-    buffer = io.BytesIO()
-    with style():
-        figure.savefig(buffer, format=kind)
-    write_atomically(file, buffer.getvalue())
+    return kind

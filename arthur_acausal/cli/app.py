@@ -1,0 +1,156 @@
+"""The commands of `arthur` and their options."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from arthur_acausal.cli.failure import reported
+
+app = typer.Typer(
+    name="arthur",
+    help="Simulate acausal, equation-based models: hydraulics, mechanics, control.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,  # plain help: importing rich costs more than all the rest
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+
+Model = Annotated[
+    str, typer.Argument(metavar="MODEL", help="arthur.powertrain, package.module:Class or file.py:Class")
+]
+Set = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="PATH=VALUE", help="Set a parameter: SI, or with a unit (150bar). Repeatable."
+    ),
+]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+Debug = Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")]
+NO_OPTIONS: list[str] = []
+
+
+@app.command("list")
+@reported
+def list_models(debug: Debug = False) -> None:
+    """List the models that ship with the package."""
+    from arthur_acausal.cli.describe import summary
+    from arthur_acausal.cli.locate import find_model, short_names
+    from arthur_acausal.cli.table import table
+
+    typer.echo(table([[name, summary(find_model(name))] for name in sorted(short_names())], "lw", indent=0))
+
+
+@app.command()
+@reported
+def info(model: Model, settings: Set = None, debug: Debug = False) -> None:
+    """Describe a model: what it is, its parts, parameters and inputs."""
+    from arthur_acausal.api import translate
+    from arthur_acausal.cli.describe import as_text
+    from arthur_acausal.cli.locate import build_model
+
+    built, _ = build_model(model, settings or [])
+    typer.echo(as_text(translate(built, compile="never")))
+
+
+@app.command()
+@reported
+def check(model: Model, settings: Set = None, as_json: Json = False, debug: Debug = False) -> None:
+    """Check a model's structure and say how its equations are solved."""
+    from arthur_acausal.cli.locate import build_model
+    from arthur_acausal.cli.structure import as_object, as_text
+    from arthur_acausal.flatten.flatten import flatten
+    from arthur_acausal.transform.structured import report, transform
+
+    built, _ = build_model(model, settings or [])
+    found = report(transform(flatten(built)))
+    typer.echo(json.dumps(as_object(found), ensure_ascii=False) if as_json else as_text(found))
+
+
+@app.command()
+@reported
+def simulate(
+    model: Model,
+    stop: Annotated[
+        str | None,
+        typer.Option("-t", "--stop-time", metavar="TIME", help="s, or with a unit (200ms); default 1 s."),
+    ] = None,
+    settings: Set = None,
+    inputs: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--input", metavar="PATH=VALUE", help="An input: a value or file.csv:column. Repeatable."
+        ),
+    ] = None,
+    starts: Annotated[
+        list[str] | None,
+        typer.Option("--start", metavar="PATH=VALUE", help="A start value. Repeatable."),
+    ] = None,
+    rtol: Annotated[
+        float | None, typer.Option(metavar="TOL", help="Relative tolerance of a step; default 1e-6.")
+    ] = None,
+    points: Annotated[
+        int | None, typer.Option(metavar="N", help="Number of output intervals; default 500.")
+    ] = None,
+    interval: Annotated[
+        str | None, typer.Option(metavar="TIME", help="Length of an output interval.")
+    ] = None,
+    max_step: Annotated[str | None, typer.Option(metavar="TIME", help="Longest step of the solver.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE.nc", help="Write all variables (NetCDF).")
+    ] = None,
+    picture: Annotated[
+        Path | None,
+        typer.Option("--plot", metavar="FILE.png", help="Draw the model's picture (png, pdf, svg)."),
+    ] = None,
+    verify: Annotated[
+        bool, typer.Option("--verify", help="Check the result against every raw equation.")
+    ] = False,
+    as_json: Json = False,
+    debug: Debug = False,
+) -> None:
+    """Simulate a model; print statistics, energies and final states."""
+    from arthur_acausal.cli.simulate import Request
+    from arthur_acausal.cli.simulate import simulate as carry_out
+
+    carry_out(
+        Request(
+            model=model,
+            stop=stop,
+            settings=settings or (),
+            inputs=inputs or (),
+            starts=starts or (),
+            rtol=rtol,
+            points=points,
+            interval=interval,
+            max_step=max_step,
+            output=output,
+            picture=picture,
+            verify=verify,
+            as_json=as_json,
+        )
+    )
+
+
+@app.command()
+@reported
+def plot(
+    file: Annotated[Path, typer.Argument(metavar="FILE.nc", help="A result of `arthur simulate -o`.")],
+    variables: Annotated[
+        list[str], typer.Argument(metavar="VAR...", help="Paths or patterns: 'valves[*].I'.")
+    ],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE.png", help="Default: FILE with .png.")
+    ] = None,
+    debug: Debug = False,
+) -> None:
+    """Draw variables of a result over time, one panel for each unit."""
+    from arthur_acausal.result.stored import load
+
+    target = output or file.with_suffix(".png")
+    load(file).plot(variables, target)
+    typer.echo(f"wrote {target}")
