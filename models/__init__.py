@@ -1,1 +1,22 @@
-"""Whole systems composed from the component library."""
+"""Whole systems composed from the component library.
+
+``REGISTRY`` gives the models that have a short name: name -> "package.module:Class".
+"""
+
+REGISTRY: dict[str, str] = {
+    "arthur.powertrain": "arthur_acausal.models.arthur.powertrain:Powertrain",
+    "arthur.demo": "arthur_acausal.models.arthur.demo:Demo",
+    "examples.bouncing_ball": "arthur_acausal.models.examples.bouncing_ball:BouncingBall",
+    "examples.rc_ladder": "arthur_acausal.models.examples.rc_ladder:RCLadder",
+    "examples.jack": "arthur_acausal.models.examples.jack:Jack",
+    "examples.accumulator_charge": "arthur_acausal.models.examples.accumulator_charge:AccumulatorCharge",
+}
+
+DESCRIPTIONS: dict[str, str] = {
+    "arthur.powertrain": "hydraulic powertrain of the ARTHuR quadruped, with external inputs",
+    "arthur.demo": "the powertrain under twelve trot-like current profiles, from its cold start",
+    "examples.bouncing_ball": "state events and reinit",
+    "examples.rc_ladder": "a chain of n resistors and capacitors",
+    "examples.jack": "pressure source, orifice, ram and mass",
+    "examples.accumulator_charge": "check valve, accumulator and relief valve",
+}

@@ -2,6 +2,7 @@
 
 from arthur_acausal.components.blocks.arithmetic import Add, Feedback, Gain, Limiter, Product
 from arthur_acausal.components.blocks.continuous import PID, FirstOrder, Integrator, SecondOrder
+from arthur_acausal.components.blocks.energy import EnergyMeter
 from arthur_acausal.components.blocks.signal import SISO, Block, Source
 from arthur_acausal.components.blocks.sources import Clock, Constant, Ramp, Sine, Step, TimeTable, Trapezoid
 
@@ -12,6 +13,7 @@ __all__ = [
     "Block",
     "Clock",
     "Constant",
+    "EnergyMeter",
     "Feedback",
     "FirstOrder",
     "Gain",

@@ -4,7 +4,7 @@ from arthur_acausal.components.hydraulic.accumulator import Accumulator
 from arthur_acausal.components.hydraulic.battery import BatteryDrive
 from arthur_acausal.components.hydraulic.check_valve import CheckValve
 from arthur_acausal.components.hydraulic.cylinder import Cylinder
-from arthur_acausal.components.hydraulic.filter import Filter
+from arthur_acausal.components.hydraulic.filter import Filter, SignalFilter
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.gear_pump import GearPump
 from arthur_acausal.components.hydraulic.line import Line, LineSegment
@@ -65,6 +65,7 @@ __all__ = [
     "Ram",
     "ReliefValve",
     "ServoValve",
+    "SignalFilter",
     "Tank",
     "TwoPort",
     "VariableOrifice",

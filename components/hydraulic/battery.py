@@ -27,8 +27,8 @@ class BatteryDrive(Component):
     eta_drive: Real = parameter("1", default=1.0, min=0.0, max=1.0, description="efficiency of the drive")
     V_bus: Real = variable("V", nominal=40.0, start=40.0, description="bus voltage")
     I_bus: Real = variable("A", nominal=10.0, description="battery current")
-    P_loss: Real = variable("W", description="heat in the battery and the drive")
-    P_battery: Real = variable("W", description="power from the battery's chemistry")
+    P_loss: Real = real_output("W", description="heat in the battery and the drive")
+    P_battery: Real = real_output("W", description="power from the battery's chemistry")
 
     def equations(self) -> Equations:
         P_bus = self.P_el / self.eta_drive

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from casadi import SX, exp, fabs, tanh
 
-from arthur_acausal import Component, Equations, Real, der, parameter, variable
+from arthur_acausal import Component, Equations, Real, der, parameter, real_output, variable
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.laws import stop_energy, stop_force
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
@@ -72,7 +72,7 @@ class Cylinder(Component):
     F_friction: Real = variable("N", nominal=100.0, description="friction, positive against extension")
     F_stop: Real = variable("N", nominal=100.0, description="force of the stops")
     m_fluid: Real = variable("kg", nominal=1e-3, description="mass of the fluid in both chambers")
-    P_loss: Real = variable("W", description="power turned to heat: friction and leakage")
+    P_loss: Real = real_output("W", description="power turned to heat: friction and leakage")
     E_stored: Real = variable("J", description="kinetic, stop springs, compressed fluid")
 
     def equations(self) -> Equations:

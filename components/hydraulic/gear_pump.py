@@ -43,9 +43,9 @@ class GearPump(Component):
     dp: Real = variable("Pa", nominal=1e7, display="bar", description="pressure rise")
     q_displaced: Real = variable("m^3/s", nominal=1e-4, display="L/min", description="flow without leakage")
     q_leak: Real = variable("m^3/s", nominal=1e-5, display="L/min", description="leakage")
-    P_friction: Real = variable("W", description="power turned to heat by friction")
-    P_leakage: Real = variable("W", description="power turned to heat by leakage")
-    P_compression: Real = variable("W", description="power turned to heat as fluid is let into the discharge")
+    P_friction: Real = real_output("W", description="power turned to heat by friction")
+    P_leakage: Real = real_output("W", description="power turned to heat by leakage")
+    P_compression: Real = real_output("W", description="power turned to heat as fluid enters the discharge")
     E_stored: Real = variable("J", description="kinetic energy")
 
     def equations(self) -> Equations:

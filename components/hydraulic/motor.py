@@ -50,8 +50,8 @@ class BrushlessMotor(Component):
     I: Real = variable("A", nominal=10.0, description="line current")
     V_t: Real = variable("V", nominal=10.0, description="terminal voltage")
     tau: Real = variable("N*m", description="torque of the rotor's field")
-    P_copper: Real = variable("W", description="power turned to heat in the windings")
-    P_friction: Real = variable("W", description="power turned to heat in the bearings")
+    P_copper: Real = real_output("W", description="power turned to heat in the windings")
+    P_friction: Real = real_output("W", description="power turned to heat in the bearings")
     E_stored: Real = variable("J", description="kinetic energy")
 
     def equations(self) -> Equations:

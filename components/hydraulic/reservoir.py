@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from arthur_acausal import Component, Equations, Real, der, parameter, variable
+from arthur_acausal import Component, Equations, Real, der, parameter, real_output, variable
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.laws import gas_energy, stop_energy, stop_force
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
@@ -44,7 +44,7 @@ class GasReservoir(Component):
     V_f: Real = variable("m^3", nominal=1e-5, description="fluid volume")
     V_g: Real = variable("m^3", nominal=1e-5, description="gas volume")
     m_fluid: Real = variable("kg", nominal=0.1, description="mass of the fluid")
-    P_loss: Real = variable("W", description="power turned to heat by the piston's damping")
+    P_loss: Real = real_output("W", description="power turned to heat by the piston's damping")
     E_stored: Real = variable("J", description="kinetic, stop springs, gas and fluid")
 
     def equations(self) -> Equations:

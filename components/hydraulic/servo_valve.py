@@ -6,7 +6,7 @@ from math import pi
 
 from casadi import SX, fmax, sqrt
 
-from arthur_acausal import Component, Equations, Real, der, parameter, real_input, variable
+from arthur_acausal import Component, Equations, Real, der, parameter, real_input, real_output, variable
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.laws import clamp, exact_root, turbulent_root
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
@@ -63,7 +63,7 @@ class ServoValve(Component):
     q_pb: Real = variable("m^3/s", nominal=1e-5, description="flow from P to B")
     q_at: Real = variable("m^3/s", nominal=1e-5, description="flow from A to T")
     q_bt: Real = variable("m^3/s", nominal=1e-5, description="flow from B to T")
-    P_loss: Real = variable("W", description="power turned to heat in the four lands")
+    P_loss: Real = real_output("W", description="power turned to heat in the four lands")
 
     def land(self, x: SX, dp: SX) -> SX:
         """Return the flow [m^3/s] at the drop ``dp`` through a land that opens with positive ``x``."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from arthur_acausal import Component, Equations, Real, variable
+from arthur_acausal import Component, Equations, Real, real_output, variable
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
 
@@ -19,7 +19,7 @@ class TwoPort(Component):
     fluid: Fluid = Fluid()
     dp: Real = variable("Pa", nominal=1e7, display="bar", description="pressure drop")
     q: Real = variable("m^3/s", nominal=1e-4, display="L/min", description="flow from port_a to port_b")
-    P_loss: Real = variable("W", description="power turned to heat")
+    P_loss: Real = real_output("W", description="power turned to heat")
 
     def equations(self) -> Equations:
         a, b = self.port_a, self.port_b

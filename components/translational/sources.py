@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from arthur_acausal import Component, Equations, Real, der, real_input, variable
+from arthur_acausal import Component, Equations, Real, der, real_input, real_output, variable
 from arthur_acausal.components.translational.flange import Flange
 
 
@@ -24,7 +24,7 @@ class LoadForce(Component):
 
     flange = Flange()
     F: Real = real_input("N", default=0.0)
-    P_work: Real = variable("W", description="power given to the load")
+    P_work: Real = real_output("W", description="power given to the load")
 
     def equations(self) -> Equations:
         yield self.flange.f == self.F
