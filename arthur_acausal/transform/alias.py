@@ -11,18 +11,23 @@ from arthur_acausal.flatten.system import FlatEquation, FlatSystem
 from arthur_acausal.graph import Outcome, SignedUnion
 from arthur_acausal.transform.linear import LinearAnalysis
 
+Definition = tuple[FlatEquation, Atom, Atom, int]
+"""An equation ``w == sign der(x)``: itself, w, der(x), sign."""
+
 
 @dataclass(frozen=True, slots=True)
 class Aliases:
     """What elimination found; the recovery of every variable.
 
     ``root[i]``, ``sign[i]``: variable i is sign times variable root. ``zero``: roots that are identically zero.
-    ``kept``: the equations that say more than an alias. ``count``: how many variables and equations went.
+    ``rate``: root -> the root that is its derivative, by an equation ``w == der(x)`` whose w is differentiated, too.
+    ``kept``: the equations that say more than this. ``count``: how many equations went.
     """
 
     root: list[int]
     sign: list[int]
     zero: frozenset[int]
+    rate: dict[int, int]
     kept: list[FlatEquation]
     count: int
 
@@ -37,7 +42,7 @@ def eliminate_aliases(flat: FlatSystem, linear: LinearAnalysis) -> Aliases:
     for alias in flat.aliases:
         _join(union, alias.i, alias.j, 1, f"connect ({alias.where})")
     kept: list[FlatEquation] = []
-    derivatives: list[tuple[FlatEquation, Atom, Atom, int]] = []
+    derivatives: list[Definition] = []
     for equation in flat.equations:
         shape = linear.shape(equation.equation.residual)
         if shape is None:
@@ -59,15 +64,39 @@ def eliminate_aliases(flat: FlatSystem, linear: LinearAnalysis) -> Aliases:
             derivatives.append((equation, w, x, shape.sign))
         else:
             kept.append(equation)
-    kept += _join_derivatives(union, derivatives)
-    union.prefer(_preference(flat))
+    definitions = _join_derivatives(union, derivatives)
+    states = _differentiated(flat)
+    union.prefer(_preference(flat, states))
     zero = frozenset(union.find(i)[0] for i in zeros) | {
         union.find(i)[0] for i in range(len(union)) if union.is_zero(i)
     }
+    rate, rest = _rates(union, definitions, {union.find(i)[0] for i in states}, zero | set(flat.inputs))
     pairs = [union.find(i) for i in range(len(union))]
     root = [p[0] for p in pairs]
-    eliminated = sum(r != i for i, r in enumerate(root)) + len(zero)
-    return Aliases(root, [p[1] for p in pairs], frozenset(zero), kept, eliminated)
+    count = len(flat.aliases) + len(flat.equations) - len(kept) - len(rest)
+    return Aliases(root, [p[1] for p in pairs], zero, rate, kept + rest, count)
+
+
+def _rates(
+    union: SignedUnion, definitions: list[Definition], states: set[int], known: frozenset[int] | set[int]
+) -> tuple[dict[int, int], list[FlatEquation]]:
+    """Return x -> w for definitions ``w == der(x)`` that make chains of derivatives, and the equations of all others."""
+    rate: dict[int, int] = {}
+    taken: set[int] = set()
+    rest = []
+    for equation, w, x, sign in definitions:
+        root_w, sign_w = union.find(w.index)
+        root_x, sign_x = union.find(x.index)
+        end = root_w
+        while end in rate:
+            end = rate[end]
+        chain = root_w in states and root_w not in taken and root_x not in rate and end != root_x
+        if chain and sign * sign_w * sign_x > 0 and root_w not in known and root_x not in known:
+            rate[root_x] = root_w
+            taken.add(root_w)
+        else:
+            rest.append(equation)
+    return rate, rest
 
 
 def _join(union: SignedUnion, i: int, j: int, sign: int, text: str) -> None:
@@ -79,9 +108,7 @@ def _join(union: SignedUnion, i: int, j: int, sign: int, text: str) -> None:
         )
 
 
-def _join_derivatives(
-    union: SignedUnion, derivatives: list[tuple[FlatEquation, Atom, Atom, int]]
-) -> list[FlatEquation]:
+def _join_derivatives(union: SignedUnion, derivatives: list[Definition]) -> list[Definition]:
     """Join the variables that are derivatives of one variable; return the defining equations that remain."""
     waiting = derivatives
     while True:
@@ -101,13 +128,17 @@ def _join_derivatives(
                 joined = True
         waiting = remain
         if not joined:
-            return [entry[0] for entry in waiting]
+            return waiting
 
 
-def _preference(flat: FlatSystem) -> Callable[[int], tuple[object, ...]]:
-    """Return the key of the variable that stands for its set: a state, then a given start, then the nearest path."""
+def _differentiated(flat: FlatSystem) -> set[int]:
+    """Return the variables whose derivative stands in an equation."""
     has_rate = {e.equation: any(a.kind == "der" for a in e.equation.atoms) for e in flat.equations}
-    states = {a.index for e in flat.equations if has_rate[e.equation] for a in e.atoms() if a.kind == "der"}
+    return {a.index for e in flat.equations if has_rate[e.equation] for a in e.atoms() if a.kind == "der"}
+
+
+def _preference(flat: FlatSystem, states: set[int]) -> Callable[[int], tuple[object, ...]]:
+    """Return the key of the variable that stands for its set: a state, then a given start, then the nearest path."""
     inputs = set(flat.inputs)
 
     def key(i: int) -> tuple[object, ...]:

@@ -43,7 +43,8 @@ def reduce_index(rows: list[Row], nodes: Nodes, linear: LinearAnalysis, evaluato
     except StructurallySingular as singular:
         raise _singular(singular, rows, nodes) from None
     if len(result.edges) == len(rows):
-        index = int(any(not nodes.all[n].order for n in result.assignment if n >= 0))
+        rates = set(nodes.derivative)
+        index = int(any(n not in rates for n in result.assignment if n >= 0))
         return ReducedSystem(rows, edges, frozenset(), [], index)
     made = len(nodes.all)
     for successor, node in sorted((s, n) for n, s in enumerate(result.derivative) if s >= made):

@@ -61,6 +61,8 @@ class Nodes:
                 self._number[root] = len(self.all)
                 self.all.append(Node(root, 0))
                 self.derivative.append(-1)
+        for x, w in aliases.rate.items():
+            self.derivative[self._number[x]] = self._number[w]
 
     def of_variable(self, i: int) -> Ref:
         """Return what variable i stands for."""

@@ -1,0 +1,118 @@
+"""Verification: every raw equation of the flat model, before any elimination, evaluated on a solution."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from arthur_acausal.declare.scope import Atom
+from arthur_acausal.flatten.block import Expression
+from arthur_acausal.flatten.system import FlatEquation, FlatSystem
+from arthur_acausal.result.solution import Solution
+from arthur_acausal.transform.structured import StructuredDAE
+
+FloatArray = NDArray[np.float64]
+
+LISTED = 10  # the worst equations that a verification keeps
+
+
+@dataclass(frozen=True, slots=True)
+class Residual:
+    """The largest scaled residual of one raw equation, and when [s]."""
+
+    scaled: float
+    time: float
+    equation: str
+
+
+@dataclass(frozen=True, slots=True)
+class Verification:
+    """How well a solution fulfils the raw equations.
+
+    A residual is scaled by the sum of what each quantity in the equation contributes to it: |d(lhs - rhs)/dx| times
+    the largest |x| of the run. ``worst`` first; ``equations``: how many were evaluated, those of connections included.
+    """
+
+    worst: list[Residual]
+    equations: int
+
+    @property
+    def largest(self) -> float:
+        """The largest scaled residual of all."""
+        return self.worst[0].scaled if self.worst else 0.0
+
+    @property
+    def path(self) -> str:
+        """The equation with the largest scaled residual."""
+        return self.worst[0].equation if self.worst else ""
+
+
+def verify(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> Verification:
+    """Evaluate all raw equations; each class-level equation at once for all its instances and times."""
+    t = np.asarray(solution.t)
+    values = _values(flat, structured, solution)
+    groups: dict[Expression, list[FlatEquation]] = {}
+    for equation in flat.equations:
+        groups.setdefault(equation.equation.residual, []).append(equation)
+    found = [r for expression, group in groups.items() for r in _group(expression, group, values, t)]
+    for alias in flat.aliases:
+        a, b = values(Atom("variable", alias.i)), values(Atom("variable", alias.j))
+        scale = max(float(np.max(np.abs(a))), float(np.max(np.abs(b))), np.finfo(float).tiny)
+        worst = int(np.argmax(np.abs(a - b)))
+        paths = f"{flat.variables[alias.i].path} == {flat.variables[alias.j].path}"
+        found.append(Residual(float(abs(a - b)[worst]) / scale, float(t[worst]), f"{paths} ({alias.where})"))
+    found.sort(key=lambda r: -r.scaled if np.isfinite(r.scaled) else -np.inf)
+    return Verification(found[:LISTED], len(flat.equations) + len(flat.aliases))
+
+
+def _values(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> Callable[[Atom], FloatArray]:
+    """Return what gives an atom's values (nt,) over the solution."""
+    scope, t = flat.scope, np.asarray(solution.t)
+    kept: dict[Atom, FloatArray] = {}
+
+    def fetch(atom: Atom) -> FloatArray:
+        match atom.kind:
+            case "variable":
+                return solution[scope.variable[atom.index].path]
+            case "parameter":
+                return solution[scope.parameter[flat.parameter(atom.index)].path]
+            case "discrete" | "pre":
+                return solution[scope.discrete[atom.index].path]
+            case "mode":
+                return solution.modes[:, atom.index]
+            case "der":
+                ref = structured.nodes.of_derivative(atom.index, "")
+                zero = np.zeros(len(t))
+                return zero if ref.kind == "zero" else ref.sign * solution[structured.nodes.name(ref.index)]
+        return t
+
+    def value(atom: Atom) -> FloatArray:
+        if atom not in kept:
+            kept[atom] = np.asarray(fetch(atom), dtype=float) * np.ones(len(t))
+        return kept[atom]
+
+    return value
+
+
+def _group(
+    expression: Expression, group: list[FlatEquation], values: Callable[[Atom], FloatArray], t: FloatArray
+) -> list[Residual]:
+    if not expression.symbols:
+        return [Residual(0.0, float(t[0]), e.text) for e in group]
+    symbols = ca.vertcat(*expression.symbols)
+    slope = ca.densify(ca.jacobian(expression.value, symbols))
+    function = ca.Function("raw", [symbols], [expression.value, slope])
+    found = []
+    for equation in group:
+        x = np.array([values(atom) for atom in equation.atoms()])
+        residual, slopes = function.map(len(t))(x)
+        size = np.abs(np.asarray(slopes, dtype=float).reshape(1, len(t), len(x), order="C")[0])
+        scale = np.maximum(size @ np.max(np.abs(x), axis=1), np.finfo(float).tiny)
+        scaled = np.abs(np.asarray(residual, dtype=float)[0]) / scale
+        worst = int(np.argmax(np.where(np.isfinite(scaled), scaled, np.inf)))
+        found.append(Residual(float(scaled[worst]), float(t[worst]), equation.text))
+    return found
