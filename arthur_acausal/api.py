@@ -95,7 +95,9 @@ def _options(options: SolverOptions | None, tolerance: float | None) -> SolverOp
     return options
 
 
-def translate(model: Component, *, name: str = "", check_units: bool = True, compile: str = "auto") -> Translation:
+def translate(
+    model: Component, *, name: str = "", check_units: bool = True, compile: str = "auto"
+) -> Translation:
     """Translate a model: flatten, reduce the index, order the equations, generate code.
 
     Parameters
@@ -114,7 +116,11 @@ def translate(model: Component, *, name: str = "", check_units: bool = True, com
     transformed = perf_counter()
     dae = generate(structured, compile=compile)
     done = perf_counter()
-    seconds = {"flatten": flattened - begun, "transform": transformed - flattened, "codegen": done - transformed}
+    seconds = {
+        "flatten": flattened - begun,
+        "transform": transformed - flattened,
+        "codegen": done - transformed,
+    }
     return Translation(model, flat, structured, dae, seconds)
 
 

@@ -15,7 +15,7 @@ from arthur_acausal.transform.structured import StructuredDAE
 
 @dataclass(frozen=True, slots=True)
 class Arguments:
-    """The symbols of all kernels: time, unknowns, derivatives, parameters, inputs, discretes (now and before), modes."""
+    """The symbols of all kernels; z are the discrete variables now, zp before the event, m the frozen relations."""
 
     t: SX
     y: SX
@@ -99,7 +99,9 @@ def assemble(dae: StructuredDAE, n_starts: int) -> Assembly:
         rest = dae.evaluator(row, look)
         coefficient = assignment.coefficient
         if isinstance(coefficient, float):
-            values[assignment.node] = -rest if coefficient == 1.0 else rest if coefficient == -1.0 else -rest / coefficient
+            values[assignment.node] = (
+                -rest if coefficient == 1.0 else rest if coefficient == -1.0 else -rest / coefficient
+            )
         else:
             assert coefficient is not None
             pivot = dae.evaluator(row, look, coefficient)
@@ -142,17 +144,17 @@ def lookup(assembly: Assembly, *, before: bool) -> Callable[[Ref], SX]:
     def look(ref: Ref) -> SX:
         match ref.kind:
             case "node":
-                return values[ref.index]
+                return values[ref.number]
             case "parameter":
-                return p[place[ref.index]]
+                return p[place[ref.number]]
             case "input":
-                return u[ref.index]
+                return u[ref.number]
             case "discrete":
-                return z[ref.index]
+                return z[ref.number]
             case "pre":
-                return zp[ref.index]
+                return zp[ref.number]
             case "mode":
-                return m[ref.index]
+                return m[ref.number]
             case "time":
                 return arguments.t
         return zero
@@ -168,10 +170,10 @@ def variable_values(dae: StructuredDAE, assembly: Assembly) -> dict[int, SX]:
 def reinit_target(dae: StructuredDAE, variable: int, y_place: dict[int, int], text: str) -> tuple[int, int]:
     """Return (place in y, sign) of the state that a reinit changes. Raises StructureError if it is no state."""
     ref = dae.nodes.of_variable(variable)
-    if ref.kind != "node" or ref.index not in y_place or ref.index not in set(dae.causal.states):
+    if ref.kind != "node" or ref.number not in y_place or ref.number not in set(dae.causal.states):
         raise StructureError(
             f"reinit({dae.flat.variables[variable].path}): it is no state of the system",
             equation=text,
             remedy='reinitialise a state that it depends on, or declare it with state_select="always"',
         )
-    return y_place[ref.index], ref.sign
+    return y_place[ref.number], ref.sign

@@ -116,7 +116,9 @@ class CompiledDAE:
     maximum: FloatArray
     parameters: ParameterTable
     starts: list[StartEntry]
-    start_aliases: dict[str, tuple[int, int]] = field(repr=False)  # variable path -> (number of the entry, sign)
+    start_aliases: dict[str, tuple[int, int]] = field(
+        repr=False
+    )  # variable path -> (number of the entry, sign)
     pivot_labels: list[str] = field(repr=False)
     functions: dict[str, ca.Function] = field(repr=False)
     recovery: Recovery = field(repr=False)
@@ -195,7 +197,14 @@ class Evaluator:
 
     def __init__(self, dae: CompiledDAE) -> None:
         self._dae = dae
-        size = {"t": 1, "y": dae.n, "yp": dae.n, "u": len(dae.u_paths), "z": len(dae.z_paths), "m": len(dae.relations)}
+        size = {
+            "t": 1,
+            "y": dae.n,
+            "yp": dae.n,
+            "u": len(dae.u_paths),
+            "z": len(dae.z_paths),
+            "m": len(dae.relations),
+        }
         self.t, self.y, self.yp, self.u, self.z, self.m = (np.zeros(k) for k in size.values())
         self.p = dae.parameter_vector()
         self.zp = np.zeros(len(dae.z_paths))

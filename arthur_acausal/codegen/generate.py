@@ -10,6 +10,7 @@ from casadi import SX
 
 from arthur_acausal.codegen.assemble import (
     Assembly,
+    StartSlot,
     assemble,
     elements,
     lookup,
@@ -27,7 +28,7 @@ from arthur_acausal.codegen.compiled import (
 from arthur_acausal.codegen.kernel import compile_functions
 from arthur_acausal.codegen.parameters import ParameterInfo, ParameterTable
 from arthur_acausal.codegen.recovery import Recovery, Source
-from arthur_acausal.codegen.starts import StartSlot, attribute_arrays, collect_starts
+from arthur_acausal.codegen.starts import attribute_arrays, collect_starts
 from arthur_acausal.errors import ParameterError
 from arthur_acausal.graph import strongly_connected
 from arthur_acausal.transform.rows import Row
@@ -94,7 +95,9 @@ def _functions(
     initial, labels = _initial(dae, assembly, slots)
     slope = ca.horzcat(ca.jacobian(initial, a.y), ca.jacobian(initial, a.yp))
     starts = [_start_value(dae, assembly, s.value) for s in slots]
-    starts += [_start_value(dae, assembly, d.start.value if d.start else 0.0) for d in dae.flat.scope.discrete]
+    starts += [
+        _start_value(dae, assembly, d.start.value if d.start else 0.0) for d in dae.flat.scope.discrete
+    ]
     make = ca.Function
     functions = {
         "residual": make("residual", arguments, [residual]),
@@ -110,7 +113,12 @@ def _functions(
         "pivots": make("pivots", [a.p], [_column([v for v, _ in assembly.pivots])]),
     }
     relations = [
-        Relation(f"{r.path}: {r.relation.text}".lstrip(": "), r.relation.where, r.relation.inclusive, _time_only(g, a))
+        Relation(
+            f"{r.path}: {r.relation.text}".lstrip(": "),
+            r.relation.where,
+            r.relation.inclusive,
+            _time_only(g, a),
+        )
         for r, g in zip(dae.flat.relations, roots, strict=True)
     ]
     tables = {
@@ -160,9 +168,11 @@ def _whens(
             if target is None:
                 assignments.append(Assignment("terminate", -1, number, assignment.message, text))
             elif target.kind == "discrete":
-                assignments.append(Assignment("discrete", target.index + item.shift.discrete, number, "", text))
+                assignments.append(
+                    Assignment("discrete", target.number + item.shift.discrete, number, "", text)
+                )
             else:
-                place, sign = reinit_target(dae, target.index + item.shift.variable, y_place, text)
+                place, sign = reinit_target(dae, target.number + item.shift.variable, y_place, text)
                 value = sign * value
                 assignments.append(Assignment("state", place, number, "", text))
             values.append(value)
@@ -203,7 +213,7 @@ def parameter_expression(dae: StructuredDAE, assembly: Assembly, value: SX) -> S
         atom = dae.flat.scope.atom(symbol)
         if atom is None or atom.kind != "parameter":
             raise ParameterError(f"{value} contains {symbol}, which is no parameter of this model")
-        replaced.append(p[assembly.parameter_place[dae.flat.parameter(atom.index)]])
+        replaced.append(p[assembly.parameter_place[dae.flat.parameter(atom.number)]])
     result: SX = ca.substitute(value, ca.vertcat(*symbols), ca.vertcat(*replaced))
     return result
 
@@ -214,7 +224,12 @@ def _start_entries(
     variables = dae.flat.variables
     entries = [
         StartEntry(
-            s.path, y_place.get(s.node, -1), s.sign, s.fixed, variables[dae.nodes.all[s.node].variable].quantity.unit, first + k
+            s.path,
+            y_place.get(s.node, -1),
+            s.sign,
+            s.fixed,
+            variables[dae.nodes.all[s.node].variable].quantity.unit,
+            first + k,
         )
         for k, s in enumerate(slots)
     ]
@@ -224,8 +239,8 @@ def _start_entries(
     aliases: dict[str, tuple[int, int]] = {}
     for i, declared in enumerate(variables):
         ref = dae.nodes.of_variable(i)
-        if ref.kind == "node" and ref.index in by_node:
-            number = by_node[ref.index]
+        if ref.kind == "node" and ref.number in by_node:
+            number = by_node[ref.number]
             aliases[declared.path] = (number, ref.sign * slots[number].sign)
     for k, discrete in enumerate(dae.flat.scope.discrete):
         aliases[discrete.path] = (len(slots) + k, 1)
@@ -266,10 +281,14 @@ def _dependent_function(
     for component in strongly_connected(needs):
         if len(component) > 1 or component[0] in needs[component[0]]:
             names = ", ".join(infos[dependent[j][0]].path for j in component)
-            raise ParameterError(f"parameters that depend on each other: {names}", remedy="give one of them a value")
+            raise ParameterError(
+                f"parameters that depend on each other: {names}", remedy="give one of them a value"
+            )
         k, expression = dependent[component[0]]
         symbols = ca.symvar(expression)
-        own = ca.substitute(expression, ca.vertcat(*symbols), ca.vertcat(*[result[at[s.element_hash()]] for s in symbols]))
+        own = ca.substitute(
+            expression, ca.vertcat(*symbols), ca.vertcat(*[result[at[s.element_hash()]] for s in symbols])
+        )
         result[k] = ca.if_else(chosen[k], result[k], own)
     return ca.Function("parameters", [values, given], [ca.vertcat(*result)])
 
@@ -292,7 +311,7 @@ def _recovery(dae: StructuredDAE, assembly: Assembly, y_place: dict[int, int]) -
         paths.append(declared.path)
         quantities.append(declared.quantity)
         kind = {"input": "u", "zero": "zero"}.get(ref.kind)
-        sources.append(source(ref.index, ref.sign) if kind is None else Source(kind, ref.index, ref.sign))
+        sources.append(source(ref.number, ref.sign) if kind is None else Source(kind, ref.number, ref.sign))
     for k, declared in enumerate(dae.flat.scope.discrete):
         paths.append(declared.path)
         quantities.append(declared.quantity)

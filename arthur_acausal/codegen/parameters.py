@@ -62,7 +62,9 @@ class ParameterTable:
         path = self.alias.get(path, path)
         if path not in self.number:
             raise ParameterError(
-                f"there is no parameter {path!r}", path=path, remedy=nearest(path, [*self.number, *self.alias])
+                f"there is no parameter {path!r}",
+                path=path,
+                remedy=nearest(path, [*self.number, *self.alias]),
             )
         return self.number[path]
 
@@ -73,7 +75,9 @@ class ParameterTable:
         except ArthurError:
             raise
         except (TypeError, ValueError) as error:
-            raise ParameterError(f"{value!r} is no value in {info.unit}", path=info.path, cause=str(error)) from None
+            raise ParameterError(
+                f"{value!r} is no value in {info.unit}", path=info.path, cause=str(error)
+            ) from None
 
     def _check(self, values: NDArray[np.float64]) -> None:
         for info, value in zip(self.infos, values.tolist(), strict=True):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -18,7 +17,8 @@ FloatArray = NDArray[np.float64]
 CHUNK = 200_000  # values of the observed function computed at once: bounds the memory
 
 
-class Source(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Source:
     """Where a variable's value comes from: sign times column ``index`` of y, yp, u, z, p or the observed values."""
 
     kind: str  # "y", "yp", "u", "z", "p", "observed", "zero"
@@ -69,7 +69,8 @@ class Recovery:
         column = {index: k for k, index in enumerate(wanted)}
         tables = {"y": y, "yp": yp, "u": u, "z": z}
         result = np.zeros((len(t), len(paths)))
-        for k, (kind, index, sign) in enumerate(sources):
+        for k, source in enumerate(sources):
+            kind, index, sign = source.kind, source.index, source.sign
             if kind == "observed":
                 result[:, k] = sign * observed[:, column[index]]
             elif kind == "p":

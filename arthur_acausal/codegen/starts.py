@@ -26,7 +26,7 @@ def collect_starts(dae: StructuredDAE) -> list[StartSlot]:
             continue
         ref = dae.nodes.of_variable(i)
         if ref.kind == "node":
-            candidates.setdefault(ref.index, []).append((declared.depth, ref.sign, declared))
+            candidates.setdefault(ref.number, []).append((declared.depth, ref.sign, declared))
         elif declared.start.fixed:
             _check_known(declared, ref.kind)
     slots: list[StartSlot] = []
@@ -51,16 +51,16 @@ def _check_known(declared: Declared, kind: str) -> None:
 
 
 def attribute_arrays(dae: StructuredDAE, y_nodes: list[int]) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return nominal, min and max of y: the outermost nominal given, else the largest declared, else 1; bounds intersected."""
+    """Return nominal (the outermost given, else the largest declared, else 1), min and max of y."""
     place = {node: k for k, node in enumerate(y_nodes)}
     nominal = np.ones(len(y_nodes))
     best = [(math.inf, 0.0)] * len(y_nodes)
     low, high = np.full(len(y_nodes), -np.inf), np.full(len(y_nodes), np.inf)
     for i, declared in enumerate(dae.flat.variables):
         ref = dae.nodes.of_variable(i)
-        if ref.kind != "node" or ref.index not in place:
+        if ref.kind != "node" or ref.number not in place:
             continue
-        k, quantity = place[ref.index], declared.quantity
+        k, quantity = place[ref.number], declared.quantity
         given = declared.start.nominal if declared.start is not None else None
         value = given if given is not None else quantity.nominal
         if value is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -55,7 +56,7 @@ def _collect(cls: type) -> Declarations:
     for base in reversed(cls.__mro__):
         if base is object or base.__module__ == __name__:
             continue
-        annotations = base.__dict__.get("__annotations__", {})
+        annotations = inspect.get_annotations(base)
         names = list(annotations) + [n for n in base.__dict__ if n not in annotations]
         for name in names:
             value = base.__dict__.get(name, MISSING)
@@ -71,7 +72,9 @@ def _collect(cls: type) -> Declarations:
             elif name in annotations:
                 structural[name] = value
             elif name in parts or name in quantities:
-                raise DeclarationError(f"{cls.__name__}.{name} hides a declared quantity or part", path=cls.__name__)
+                raise DeclarationError(
+                    f"{cls.__name__}.{name} hides a declared quantity or part", path=cls.__name__
+                )
     counts = {"variable": 0, "parameter": 0, "discrete": 0}
     slot: dict[str, int] = {}
     for name, quantity in quantities.items():
@@ -98,9 +101,15 @@ class Model:
         for name in modifications:
             if name in declared.fixed:
                 raise DeclarationError(
-                    f"{type(self).__name__}.{name} is a fixed part", where=where, remedy=f"annotate it: {name}: ... = ..."
+                    f"{type(self).__name__}.{name} is a fixed part",
+                    where=where,
+                    remedy=f"annotate it: {name}: ... = ...",
                 )
-            if name not in declared.quantities and name not in declared.parts and name not in declared.structural:
+            if (
+                name not in declared.quantities
+                and name not in declared.parts
+                and name not in declared.structural
+            ):
                 known = [*declared.quantities, *declared.parts, *declared.structural]
                 raise DeclarationError(
                     f"{type(self).__name__} has no {name!r}",
@@ -162,7 +171,9 @@ class Component(Model):
         is_list = isinstance(value, list) and bool(value) and all(isinstance(item, Model) for item in value)
         if isinstance(value, Model) or is_list:
             if binding is None:
-                raise DeclarationError(f"{type(self).__name__}.{name}: parts are made in the class body or in build()")
+                raise DeclarationError(
+                    f"{type(self).__name__}.{name}: parts are made in the class body or in build()"
+                )
             value = _adopt(self, name, value)
         object.__setattr__(self, name, value)
 
@@ -213,7 +224,9 @@ def bind(template: Model, name: str, scope: Scope, owner: Model | None) -> Model
         given = bound._modifications.get(part, default)
         if part in bound._modifications:
             binding.explicit.add(part)
-        bound.__dict__[part] = _bind_part(bound, part, given, owner if part in bound._modifications else bound)
+        bound.__dict__[part] = _bind_part(
+            bound, part, given, owner if part in bound._modifications else bound
+        )
     if isinstance(bound, Component):
         bound.build()
     return bound
@@ -249,7 +262,9 @@ def _bind_part(owner: Model, name: str, given: Any, author: Model | None) -> Mod
         return part
     part = bind(given, name, binding.scope, owner)
     if not isinstance(given, Record):
-        earlier, _ = binding.scope.places.setdefault((id(given), id(author)), (part, given))  # kept: ids stay unique
+        earlier, _ = binding.scope.places.setdefault(
+            (id(given), id(author)), (part, given)
+        )  # kept: ids stay unique
         if earlier is not part:
             assert earlier._binding is not None and part._binding is not None
             raise DeclarationError(
@@ -263,7 +278,9 @@ def _bind_part(owner: Model, name: str, given: Any, author: Model | None) -> Mod
 
 def _unbound(record: Record) -> Record:
     copy = type(record).__new__(type(record))
-    copy.__dict__.update({k: v for k, v in record.__dict__.items() if not isinstance(v, Model)}, _binding=None)
+    copy.__dict__.update(
+        {k: v for k, v in record.__dict__.items() if not isinstance(v, Model)}, _binding=None
+    )
     copy.__dict__["_modifications"] = dict.fromkeys(
         (n for n, q in record._declarations.quantities.items() if q.kind == "parameter"), 0.0
     ) | {n: v for n, v in record._modifications.items() if n in record._declarations.structural}
@@ -271,7 +288,9 @@ def _unbound(record: Record) -> Record:
 
 
 def _check_structural(bound: Model, path: str) -> None:
-    missing = [n for n, d in bound._declarations.structural.items() if d is MISSING and n not in bound._modifications]
+    missing = [
+        n for n, d in bound._declarations.structural.items() if d is MISSING and n not in bound._modifications
+    ]
     if missing:
         raise DeclarationError(
             f"{type(bound).__name__} needs {', '.join(missing)}",

@@ -20,14 +20,18 @@ def declared(bound: Model, path: str, quantity: Real, modification: Any) -> Decl
     if quantity.kind in ("parameter", "input"):
         return _valued(bound, binding, path, quantity, modification)
     if modification is MISSING:
-        begin = Start(quantity.start, quantity.fixed) if quantity.start is not None or quantity.fixed else None
-        value = None if begin is None else Start(_resolve(begin.value, quantity, path, bound, bound), begin.fixed)
-        return Declared(path, quantity, start=value, depth=binding.depth + 1)
+        begin = (
+            Start(quantity.start, quantity.fixed) if quantity.start is not None or quantity.fixed else None
+        )
+        own = (
+            None if begin is None else Start(_resolve(begin.value, quantity, path, bound, bound), begin.fixed)
+        )
+        return Declared(path, quantity, start=own, depth=binding.depth + 1)
     given = modification if isinstance(modification, Start) else Start(modification)
-    begin = given.value if given.value is not None else quantity.start
+    first = given.value if given.value is not None else quantity.start
     source = binding.owner if given.value is not None else bound
     fixed = quantity.fixed if given.fixed is None else given.fixed
-    value = Start(_resolve(begin, quantity, path, bound, source), fixed, given.nominal)
+    value = Start(_resolve(first, quantity, path, bound, source), fixed, given.nominal)
     return Declared(path, quantity, start=value, depth=binding.depth)
 
 
@@ -40,10 +44,16 @@ def _valued(bound: Model, binding: Binding, path: str, quantity: Real, modificat
                 where=bound._where,
                 remedy=f"give it: {type(bound).__name__}({quantity.name}=...)",
             )
-        return Declared(path, quantity, _resolve(quantity.default, quantity, path, bound, bound), depth=binding.depth + 1)
+        return Declared(
+            path, quantity, _resolve(quantity.default, quantity, path, bound, bound), depth=binding.depth + 1
+        )
     if isinstance(modification, Start):
-        raise ParameterError(f"a {quantity.kind} takes a value, not start(...)", path=path, where=bound._where)
-    return Declared(path, quantity, _resolve(modification, quantity, path, bound, binding.owner), depth=binding.depth)
+        raise ParameterError(
+            f"a {quantity.kind} takes a value, not start(...)", path=path, where=bound._where
+        )
+    return Declared(
+        path, quantity, _resolve(modification, quantity, path, bound, binding.owner), depth=binding.depth
+    )
 
 
 def _resolve(value: Any, quantity: Real, path: str, bound: Model, source: Model | None) -> Any:
@@ -54,7 +64,9 @@ def _resolve(value: Any, quantity: Real, path: str, bound: Model, source: Model 
         return value
     if callable(value) and not hasattr(value, "dimensionality"):
         if source is None:
-            raise DeclarationError("a function needs an owner to be called with", path=path, where=bound._where)
+            raise DeclarationError(
+                "a function needs an owner to be called with", path=path, where=bound._where
+            )
         binding = bound._binding
         assert binding is not None
         with using(binding.scope):

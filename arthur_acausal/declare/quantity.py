@@ -32,7 +32,9 @@ class Start:
 Value: TypeAlias = "Scalar | Deferred | Start | Real"
 
 
-def start(value: Scalar | Deferred | None = None, *, fixed: bool | None = None, nominal: float | None = None) -> Start:
+def start(
+    value: Scalar | Deferred | None = None, *, fixed: bool | None = None, nominal: float | None = None
+) -> Start:
     """Modify a variable's start value [SI, or a quantity with a unit], ``fixed`` attribute or nominal."""
     return Start(value, fixed, nominal)
 
@@ -73,8 +75,8 @@ class Real:
     @property
     def space(self) -> Literal["variable", "parameter", "discrete"]:
         """The numbering that this quantity belongs to: all continuous unknowns share one."""
-        if self.kind in ("parameter", "discrete"):
-            return cast(Literal["parameter", "discrete"], self.kind)
+        if self.kind == "parameter" or self.kind == "discrete":
+            return self.kind
         return "variable"
 
     @overload
@@ -110,7 +112,9 @@ def parameter(
     Without ``default`` the caller must give it. ``default`` may be a function of the component, for a parameter
     that depends on others: ``default=lambda self: 0.75 * self.area_a``.
     """
-    return Real("parameter", unit, default=default, min=min, max=max, display=display, description=description)
+    return Real(
+        "parameter", unit, default=default, min=min, max=max, display=display, description=description
+    )
 
 
 def variable(
@@ -126,9 +130,7 @@ def variable(
     description: str = "",
 ) -> Real:
     """Declare a continuous variable [``unit``], an unknown of the equations."""
-    return Real(
-        "variable", unit, None, start, fixed, nominal, min, max, state_select, display, description
-    )
+    return Real("variable", unit, None, start, fixed, nominal, min, max, state_select, display, description)
 
 
 def potential(
@@ -141,10 +143,14 @@ def potential(
     description: str = "",
 ) -> Real:
     """Declare a connector's potential [``unit``]: equal in all connectors of a connection set."""
-    return Real("potential", unit, nominal=nominal, min=min, max=max, display=display, description=description)
+    return Real(
+        "potential", unit, nominal=nominal, min=min, max=max, display=display, description=description
+    )
 
 
-def flow(unit: str, *, nominal: float | None = None, display: str | None = None, description: str = "") -> Real:
+def flow(
+    unit: str, *, nominal: float | None = None, display: str | None = None, description: str = ""
+) -> Real:
     """Declare a connector's flow [``unit``], positive into the component: the sum over a connection set is zero."""
     return Real("flow", unit, nominal=nominal, display=display, description=description)
 
@@ -160,7 +166,9 @@ def real_input(
     description: str = "",
 ) -> Real:
     """Declare a signal [``unit``] that comes from outside: by ``connect``, or as an external input of the run."""
-    return Real("input", unit, default, nominal=nominal, min=min, max=max, display=display, description=description)
+    return Real(
+        "input", unit, default, nominal=nominal, min=min, max=max, display=display, description=description
+    )
 
 
 def real_output(
@@ -173,5 +181,5 @@ def real_output(
 def discrete(
     unit: str = "1", *, start: Scalar | Deferred = 0.0, display: str | None = None, description: str = ""
 ) -> Real:
-    """Declare a discrete variable [``unit``]: constant between events, changed by ``when``; ``start`` holds at first."""
+    """Declare a discrete variable [``unit``]: constant between events, changed by ``when``."""
     return Real("discrete", unit, start=start, fixed=True, display=display, description=description)

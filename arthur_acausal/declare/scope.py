@@ -20,7 +20,7 @@ class Atom(NamedTuple):
     """What one symbol stands for: its kind, and its number among the variables, parameters, discretes or relations."""
 
     kind: AtomKind
-    index: int
+    number: int
 
 
 @dataclass(slots=True)
@@ -52,8 +52,12 @@ class Scope:
     parameter: list[Declared] = field(default_factory=list)
     discrete: list[Declared] = field(default_factory=list)
     relations: list[Relation] = field(default_factory=list)
-    places: dict[tuple[int, int], Any] = field(default_factory=dict)  # (component object, its author) -> instance
-    shared: list[tuple[Any, Any]] = field(default_factory=list)  # (record of a component, the record that it stands for)
+    places: dict[tuple[int, int], Any] = field(
+        default_factory=dict
+    )  # (component object, its author) -> instance
+    shared: list[tuple[Any, Any]] = field(
+        default_factory=list
+    )  # (record of a component, the record that it stands for)
     where: str = ""  # file:line of the statement that is being made
     makes_events: bool = True
     _symbols: dict[Atom, SX] = field(default_factory=dict)
@@ -73,15 +77,15 @@ class Scope:
         """Return how people read an atom."""
         match atom.kind:
             case "der":
-                return f"der({self.variable[atom.index].path})"
+                return f"der({self.variable[atom.number].path})"
             case "pre":
-                return f"pre({self.discrete[atom.index].path})"
+                return f"pre({self.discrete[atom.number].path})"
             case "mode":
-                return f"relation[{atom.index}]"
+                return f"relation[{atom.number}]"
             case "time":
                 return "time"
             case _:
-                return str(getattr(self, atom.kind)[atom.index].path)
+                return str(getattr(self, atom.kind)[atom.number].path)
 
     def atom(self, symbol: SX) -> Atom | None:
         """Return what a symbol stands for; None if it is not a plain symbol of this scope."""
@@ -94,7 +98,7 @@ class Scope:
         space = {"der": "variable", "pre": "discrete"}.get(atom.kind, atom.kind)
         if space in ("time", "mode"):
             return None
-        declared: Declared = getattr(self, space)[atom.index]
+        declared: Declared = getattr(self, space)[atom.number]
         return declared.quantity
 
 

@@ -56,7 +56,7 @@ def der(x: SX) -> SX:
     scope = current_scope("der()")
     atom = scope.atom(x)
     if atom is not None and atom.kind == "variable":
-        return scope.symbol("der", atom.index)
+        return scope.symbol("der", atom.number)
     if not isinstance(x, SX):
         raise DeclarationError("der() takes a variable or an expression of variables", where=scope.where)
     result = SX(0.0)
@@ -66,11 +66,11 @@ def der(x: SX) -> SX:
             continue
         if found.kind == "der":
             raise DeclarationError(
-                f"second derivative of {scope.variable[found.index].path}",
+                f"second derivative of {scope.variable[found.number].path}",
                 where=scope.where,
                 remedy="declare a variable for the first derivative: v == der(s), then der(v)",
             )
-        rate = SX(1.0) if found.kind == "time" else scope.symbol("der", found.index)
+        rate = SX(1.0) if found.kind == "time" else scope.symbol("der", found.number)
         result = result + ca.jacobian(x, symbol) * rate
     return result
 
@@ -81,7 +81,7 @@ def pre(x: SX) -> SX:
     atom = scope.atom(x)
     if atom is None or atom.kind not in ("discrete", "variable"):
         raise DeclarationError("pre() takes a variable", where=scope.where)
-    return scope.symbol("pre", atom.index) if atom.kind == "discrete" else x
+    return scope.symbol("pre", atom.number) if atom.kind == "discrete" else x
 
 
 def if_else(condition: Expression | bool, then: Expression, otherwise: Expression) -> SX:
@@ -99,7 +99,7 @@ def smooth_if_else(condition: Expression, then: Expression, otherwise: Expressio
 
     For laws that are continuous where the condition changes: the integrator's error control meets the kink.
     """
-    return ca.if_else(condition, then, otherwise)  # type: ignore[no-any-return]
+    return ca.if_else(condition, then, otherwise)
 
 
 def event_condition(scope: Scope, condition: SX) -> SX:
@@ -113,10 +113,10 @@ def event_condition(scope: Scope, condition: SX) -> SX:
         scope.relations.append(relation)
         return scope.symbol("mode", len(scope.relations) - 1)
     if op == ca.OP_NOT:
-        return ca.logic_not(event_condition(scope, condition.dep(0)))  # type: ignore[no-any-return]
+        return ca.logic_not(event_condition(scope, condition.dep(0)))
     if op in (ca.OP_AND, ca.OP_OR):
         parts = event_condition(scope, condition.dep(0)), event_condition(scope, condition.dep(1))
-        return ca.logic_and(*parts) if op == ca.OP_AND else ca.logic_or(*parts)  # type: ignore[no-any-return]
+        return ca.logic_and(*parts) if op == ca.OP_AND else ca.logic_or(*parts)
     raise DeclarationError(
         f"{condition} is no condition",
         where=scope.where,

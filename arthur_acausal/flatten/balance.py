@@ -29,7 +29,11 @@ def count(models: list[Model]) -> Count:
     """Count the continuous quantities that the models themselves declare."""
     kinds = [q.kind for m in models for q in m._declarations.quantities.values()]
     return Count(
-        kinds.count("potential"), kinds.count("flow"), kinds.count("input"), kinds.count("output"), kinds.count("variable")
+        kinds.count("potential"),
+        kinds.count("flow"),
+        kinds.count("input"),
+        kinds.count("output"),
+        kinds.count("variable"),
     )
 
 
@@ -56,7 +60,14 @@ def check_balance(component: Component, block: Block, connection_equations: int)
     meeting = count([c for p in parts for c in connectors_of(p)])
     signals = count(list(parts))
     unknowns = own.total + outer.total + meeting.total + signals.inputs + signals.outputs
-    equations = len(block.equations) + own.inputs + outer.flow + meeting.potential + signals.outputs + connection_equations
+    equations = (
+        len(block.equations)
+        + own.inputs
+        + outer.flow
+        + meeting.potential
+        + signals.outputs
+        + connection_equations
+    )
     if equations == unknowns:
         return
     what = f"{equations} equations for {unknowns} unknowns"
@@ -67,8 +78,12 @@ def check_balance(component: Component, block: Block, connection_equations: int)
         f"{type(component).__name__} does not balance: {what}{_culprits(component, block, surplus)}",
         path=path,
         where=_place(block, component),
-        cause="one equation too many" if equations == unknowns + 1 else ("too many equations" if surplus else "too few equations"),
-        remedy="remove one of the equations named" if surplus else "add an equation for what is not determined",
+        cause="one equation too many"
+        if equations == unknowns + 1
+        else ("too many equations" if surplus else "too few equations"),
+        remedy="remove one of the equations named"
+        if surplus
+        else "add an equation for what is not determined",
     )
 
 
@@ -83,7 +98,8 @@ def _culprits(component: Component, block: Block, surplus: bool) -> str:
     binding = component._binding
     assert binding is not None
     first = binding.first["variable"]
-    given, names = [], []
+    given: list[list[int]] = []
+    names: list[str] = []
     for model in [component, *connectors_of(component)]:
         prefix = "" if model is component else f"{model._binding.path.rpartition('.')[2]}."  # type: ignore[union-attr]
         for q in model._declarations.quantities.values():
@@ -91,12 +107,16 @@ def _culprits(component: Component, block: Block, surplus: bool) -> str:
                 if q.kind in ("flow", "input"):
                     given.append([len(names)])
                 names.append(prefix + q.name)
-    edges = [sorted({a.index - first for a in e.atoms if a.kind in ("variable", "der")}) for e in block.equations]
+    edges = [
+        sorted({a.number - first for a in e.atoms if a.kind in ("variable", "der")}) for e in block.equations
+    ]
     edges = [[v for v in row if 0 <= v < len(names)] for row in edges]
     assigned = matching(given + edges, len(names))
     if surplus:
         over = [e for e, v in zip(block.equations, assigned[len(given) :], strict=True) if v < 0]
-        listed = ", ".join(f'"{e.label}" ({e.where})' if e.label else f"{e.lhs} == {e.rhs} ({e.where})" for e in over)
+        listed = ", ".join(
+            f'"{e.label}" ({e.where})' if e.label else f"{e.lhs} == {e.rhs} ({e.where})" for e in over
+        )
         return f"; surplus: {listed}" if listed else ""
     missing = [n for i, n in enumerate(names) if i not in set(assigned)]
     return f"; not determined: {', '.join(missing)}" if missing else ""

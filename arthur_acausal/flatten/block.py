@@ -98,7 +98,8 @@ def run_block(component: Component, scope: Scope) -> Block:
                 raise _bad(component, where, f"initial_equations() yields equations only, not {statement!r}")
             block.initial.append(make_equation(statement, label, where, scope))
     block.relations = [
-        Comparison(make_expression(r.g, r.where, scope), r.inclusive, r.where, r.text) for r in scope.relations[first:]
+        Comparison(make_expression(r.g, r.where, scope), r.inclusive, r.where, r.text)
+        for r in scope.relations[first:]
     ]
     return block
 
@@ -136,7 +137,9 @@ def _statements(component: Component, scope: Scope, method: str) -> Iterator[tup
 
 
 def _line(generator: Any) -> str:
-    while getattr(generator, "gi_yieldfrom", None) is not None and hasattr(generator.gi_yieldfrom, "gi_frame"):
+    while getattr(generator, "gi_yieldfrom", None) is not None and hasattr(
+        generator.gi_yieldfrom, "gi_frame"
+    ):
         generator = generator.gi_yieldfrom
     frame = generator.gi_frame
     return f"{frame.f_code.co_filename.rsplit('/', 1)[-1]}:{frame.f_lineno}"
@@ -148,7 +151,11 @@ def _traced(error: BaseException, component: Component) -> str:
     trace = error.__traceback__
     while trace is not None:
         name = trace.tb_frame.f_code.co_filename
-        if "/arthur_acausal/declare/" not in name and "/casadi/" not in name and not name.endswith("flatten/block.py"):
+        if (
+            "/arthur_acausal/declare/" not in name
+            and "/casadi/" not in name
+            and not name.endswith("flatten/block.py")
+        ):
             found = f"{name.rsplit('/', 1)[-1]}:{trace.tb_lineno}"
         trace = trace.tb_next
     return found or component._where
@@ -161,7 +168,12 @@ def _bad(component: Component, where: str, message: str, remedy: str = "") -> De
 
 
 def _is_equation(statement: Any) -> bool:
-    return isinstance(statement, SX) and statement.numel() == 1 and not statement.is_leaf() and statement.op() == ca.OP_EQ
+    return (
+        isinstance(statement, SX)
+        and statement.numel() == 1
+        and not statement.is_leaf()
+        and statement.op() == ca.OP_EQ
+    )
 
 
 def _sort(statement: Any, label: str, where: str, component: Component, scope: Scope, block: Block) -> None:
@@ -174,15 +186,25 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
     elif _is_equation(statement):
         target = scope.atom(statement.dep(0))
         if target is not None and target.kind == "discrete":
-            block.clauses.append(Clause(None, (_assignment(statement, where, component, scope),), label, where))
+            block.clauses.append(
+                Clause(None, (_assignment(statement, where, component, scope),), label, where)
+            )
         else:
             block.equations.append(make_equation(statement, label, where, scope))
     elif isinstance(statement, bool) or (isinstance(statement, SX) and statement.is_constant()):
         truth = "true" if bool(statement) else "false"
-        raise _bad(component, where, f"an equation that is always {truth}", "both sides are the same expression or numbers")
+        raise _bad(
+            component,
+            where,
+            f"an equation that is always {truth}",
+            "both sides are the same expression or numbers",
+        )
     else:
         raise _bad(
-            component, where, f"{statement!r} is no equation", "yield lhs == rhs, a pair (label, lhs == rhs), connect(...) or when(...)"
+            component,
+            where,
+            f"{statement!r} is no equation",
+            "yield lhs == rhs, a pair (label, lhs == rhs), connect(...) or when(...)",
         )
 
 

@@ -150,11 +150,18 @@ def _join_signals(a: SX, b: SX, owner: Component, scope: Scope, where: str, foun
     from arthur_acausal.units import format_dimension, parse_unit
 
     atoms = [scope.atom(side) for side in (a, b)]
-    declared = [scope.variable[x.index] if x is not None and x.kind == "variable" else None for x in atoms]
-    if declared[0] is None or declared[1] is None or any(d.quantity.kind not in ("input", "output") for d in declared if d):
+    declared = [scope.variable[x.number] if x is not None and x.kind == "variable" else None for x in atoms]
+    if (
+        declared[0] is None
+        or declared[1] is None
+        or any(d.quantity.kind not in ("input", "output") for d in declared if d)
+    ):
         names = " and ".join(str(side) for side in (a, b))
         raise ConnectError(
-            f"{names} are not both signals", path=path_of(owner), where=where, remedy="declare real_input / real_output, or write =="
+            f"{names} are not both signals",
+            path=path_of(owner),
+            where=where,
+            remedy="declare real_input / real_output, or write ==",
         )
     dims = [parse_unit(d.quantity.unit).dimension for d in declared if d is not None]
     if dims[0] != dims[1]:
@@ -164,17 +171,23 @@ def _join_signals(a: SX, b: SX, owner: Component, scope: Scope, where: str, foun
             where=where,
         )
     own = path_of(owner)
-    sinks = [x.index for x, d in zip(atoms, declared, strict=True) if x and d and _is_sink(d.path, d.quantity, own)]
+    sinks = [
+        x.number
+        for x, d in zip(atoms, declared, strict=True)
+        if x and d and _is_sink(d.path, d.quantity, own)
+    ]
     if len(sinks) != 1:
         cause = "neither gives a value" if len(sinks) == 2 else "both give a value"
         raise ConnectError(f"{declared[0].path} and {declared[1].path}: {cause}", path=own, where=where)
     if sinks[0] in found.driver:
         raise ConnectError(
-            f"{scope.variable[sinks[0]].path} already has a source ({found.driver[sinks[0]]})", path=own, where=where
+            f"{scope.variable[sinks[0]].path} already has a source ({found.driver[sinks[0]]})",
+            path=own,
+            where=where,
         )
     found.driver[sinks[0]] = where
     assert atoms[0] is not None and atoms[1] is not None
-    found.aliases.append(Alias(atoms[0].index, atoms[1].index, where))
+    found.aliases.append(Alias(atoms[0].number, atoms[1].number, where))
 
 
 def _is_sink(path: str, quantity: Real, owner: str) -> bool:

@@ -22,7 +22,7 @@ _KEEP = {ca.OP_NEG, ca.OP_FABS, ca.OP_TWICE, ca.OP_FLOOR, ca.OP_CEIL, ca.OP_ASSI
 _LOGIC = {ca.OP_AND, ca.OP_OR, ca.OP_NOT}
 
 
-class _Mismatch(Exception):
+class _MismatchError(Exception):
     """Two dimensions that should be one."""
 
 
@@ -40,8 +40,10 @@ def check_homogeneous(equation: Equation, scope: Scope, path: str) -> None:
     where = equation.where
     try:
         left, right = _dimension(equation.lhs, memo), _dimension(equation.rhs, memo)
-    except _Mismatch as mismatch:
-        raise UnitError(f"inside {_short(equation)}: {mismatch}", path=path, equation=equation.label, where=where) from None
+    except _MismatchError as mismatch:
+        raise UnitError(
+            f"inside {_short(equation)}: {mismatch}", path=path, equation=equation.label, where=where
+        ) from None
     if left is not ANY and right is not ANY and left != right:
         raise UnitError(
             f"{_short(equation)}: the left side is {format_dimension(left)}, the right side {format_dimension(right)}",
@@ -106,7 +108,9 @@ def _operation(node: SX, parts: list[SX], dims: list[Dimension | None]) -> Dimen
         return _ONE
     for part, dimension in zip(parts, dims, strict=True):
         if dimension not in (ANY, _ONE):
-            raise _Mismatch(f"{node} needs a plain number, but {part} is {format_dimension(_sure(dimension))}")
+            raise _MismatchError(
+                f"{node} needs a plain number, but {part} is {format_dimension(_sure(dimension))}"
+            )
     return _ONE
 
 
@@ -114,17 +118,21 @@ def _agree(node: SX, parts: list[SX], dims: list[Dimension | None]) -> Dimension
     known = [d for d in dims if d is not ANY]
     if len(known) == 2 and known[0] != known[1]:
         a, b = (format_dimension(_sure(d)) for d in known)
-        raise _Mismatch(f"{parts[0]} is {a}, but {parts[1]} is {b}")
+        raise _MismatchError(f"{parts[0]} is {a}, but {parts[1]} is {b}")
     return known[0] if known else ANY
 
 
 def _power(node: SX, parts: list[SX], dims: list[Dimension | None]) -> Dimension | None:
     if dims[1] not in (ANY, _ONE):
-        raise _Mismatch(f"the exponent {parts[1]} is {format_dimension(_sure(dims[1]))}, not a plain number")
+        raise _MismatchError(
+            f"the exponent {parts[1]} is {format_dimension(_sure(dims[1]))}, not a plain number"
+        )
     if dims[0] in (ANY, _ONE):
         return dims[0]
     if not parts[1].is_constant():
-        raise _Mismatch(f"{parts[0]} is {format_dimension(_sure(dims[0]))}: its exponent must be a number")
+        raise _MismatchError(
+            f"{parts[0]} is {format_dimension(_sure(dims[0]))}: its exponent must be a number"
+        )
     return power(_sure(dims[0]), Fraction(float(parts[1])).limit_denominator(1000))
 
 

@@ -76,7 +76,9 @@ def _add_whole(component: Component, work: _Work) -> None:
     made = len(work.found.aliases)
     for connection, where in block.connections:
         join(connection.a, connection.b, component, work.scope, where, work.found)
-    _check_block(component, block, work, work.scope, len(work.found.aliases) - made + _flow_equations(component, work))
+    _check_block(
+        component, block, work, work.scope, len(work.found.aliases) - made + _flow_equations(component, work)
+    )
     _place(component, block, Shift(), work)
 
 
@@ -112,13 +114,18 @@ def _add_leaf(component: Component, work: _Work) -> None:
         _check_block(copy, block, work, scope, 0)
         work.blocks[key] = block
     shift = Shift(
-        binding.first["variable"], binding.first["parameter"], binding.first["discrete"], len(work.scope.relations)
+        binding.first["variable"],
+        binding.first["parameter"],
+        binding.first["discrete"],
+        len(work.scope.relations),
     )
     work.scope.relations.extend(Relation(r.g.value, r.inclusive, r.where, r.text) for r in block.relations)
     _place(component, block, shift, work)
 
 
-def _check_block(component: Component, block: Block, work: _Work, scope: Scope, connection_equations: int) -> None:
+def _check_block(
+    component: Component, block: Block, work: _Work, scope: Scope, connection_equations: int
+) -> None:
     check_balance(component, block, connection_equations)
     if work.check_units:
         for equation in block.equations + block.initial:
@@ -133,14 +140,18 @@ def _place(component: Component, block: Block, shift: Shift, work: _Work) -> Non
     work.clauses.extend(FlatClause(c, path, shift) for c in block.clauses)
 
 
-def _finish(root: Component, components: list[Component], name: str, same: dict[int, int], work: _Work) -> FlatSystem:
+def _finish(
+    root: Component, components: list[Component], name: str, same: dict[int, int], work: _Work
+) -> FlatSystem:
     connectors = [c for component in components for c in connectors_of(component)]
     for total in flow_sums(connectors, work.found, work.scope):
         work.equations.append(
             FlatEquation(_sum_equation(total.signs, total.where), total.path, indices=total.indices)
         )
     inputs = [
-        i for i, d in enumerate(work.scope.variable) if d.quantity.kind == "input" and i not in work.found.driver
+        i
+        for i, d in enumerate(work.scope.variable)
+        if d.quantity.kind == "input" and i not in work.found.driver
     ]
     for i in inputs:
         declared = work.scope.variable[i]

@@ -36,10 +36,13 @@ def _own_media(component: Component) -> list[tuple[str, Record, list[Connector]]
     return found
 
 
-def unify_media(components: list[Component], found: Connections, shared: list[tuple[Record, Record]]) -> dict[int, int]:
+def unify_media(
+    components: list[Component], found: Connections, shared: list[tuple[Record, Record]]
+) -> dict[int, int]:
     """Give every component the medium of its connection set; return parameter number -> the one that it stands for.
 
-    ``shared`` lists records that were given as another one, already with its place. Raises ConnectError where two different media were given explicitly in one set.
+    ``shared`` lists records that were given as another one, already with its place.
+    Raises ConnectError where two different media were given explicitly in one set.
     """
     union = _Union()
     source = {id(record): original for record, original in shared}

@@ -20,20 +20,23 @@ class Shift(NamedTuple):
     mode: int = 0
 
 
+UNSHIFTED = Shift()
+
+
 @dataclass(frozen=True, slots=True)
 class FlatEquation:
     """One equation of the model: a class-level expression, and where its symbols stand in the model."""
 
     equation: Equation
     path: str
-    shift: Shift = Shift()
+    shift: Shift = UNSHIFTED
     indices: tuple[int, ...] | None = None  # of a flow sum: its variables, in the order of the symbols
 
     def atoms(self) -> list[Atom]:
         """Return what the equation's symbols stand for in the model, in their order."""
         if self.indices is not None:
             return [Atom("variable", i) for i in self.indices]
-        if self.shift == (0, 0, 0, 0):
+        if self.shift == UNSHIFTED:
             return self.equation.atoms
         return [shifted(atom, self.shift) for atom in self.equation.atoms]
 
@@ -48,13 +51,13 @@ def shifted(atom: Atom, shift: Shift) -> Atom:
     """Return the model's atom behind a component class's own."""
     match atom.kind:
         case "variable" | "der":
-            return Atom(atom.kind, atom.index + shift.variable)
+            return Atom(atom.kind, atom.number + shift.variable)
         case "parameter":
-            return Atom(atom.kind, atom.index + shift.parameter)
+            return Atom(atom.kind, atom.number + shift.parameter)
         case "discrete" | "pre":
-            return Atom(atom.kind, atom.index + shift.discrete)
+            return Atom(atom.kind, atom.number + shift.discrete)
         case "mode":
-            return Atom(atom.kind, atom.index + shift.mode)
+            return Atom(atom.kind, atom.number + shift.mode)
     return atom
 
 

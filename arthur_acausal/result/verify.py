@@ -77,17 +77,17 @@ def _values(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> 
     def fetch(atom: Atom) -> FloatArray:
         match atom.kind:
             case "variable":
-                return solution[scope.variable[atom.index].path]
+                return solution[scope.variable[atom.number].path]
             case "parameter":
-                return solution[scope.parameter[flat.parameter(atom.index)].path]
+                return solution[scope.parameter[flat.parameter(atom.number)].path]
             case "discrete" | "pre":
-                return solution[scope.discrete[atom.index].path]
+                return solution[scope.discrete[atom.number].path]
             case "mode":
-                return solution.modes[:, atom.index]
+                return solution.modes[:, atom.number]
             case "der":
-                ref = structured.nodes.of_derivative(atom.index, "")
+                ref = structured.nodes.of_derivative(atom.number, "")
                 zero = np.zeros(len(t))
-                return zero if ref.kind == "zero" else ref.sign * solution[structured.nodes.name(ref.index)]
+                return zero if ref.kind == "zero" else ref.sign * solution[structured.nodes.name(ref.number)]
         return t
 
     def value(atom: Atom) -> FloatArray:

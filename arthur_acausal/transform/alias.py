@@ -1,4 +1,4 @@
-"""Alias elimination on integers: variables that are equal, opposite or zero share one number, before any substitution."""
+"""Alias elimination on integers, before any substitution: equal, opposite and zero variables share one number."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ def eliminate_aliases(flat: FlatSystem, linear: LinearAnalysis) -> Aliases:
         first = atoms[shape.i]
         if shape.j < 0:
             if first.kind == "variable":
-                zeros.append(first.index)
+                zeros.append(first.number)
             else:
                 kept.append(equation)
             continue
         second = atoms[shape.j]
         if first.kind == "variable" and second.kind == "variable":
-            _join(union, first.index, second.index, shape.sign, equation.text)
+            _join(union, first.number, second.number, shape.sign, equation.text)
         elif first.kind != second.kind:
             w, x = (first, second) if second.kind == "der" else (second, first)
             derivatives.append((equation, w, x, shape.sign))
@@ -80,13 +80,13 @@ def eliminate_aliases(flat: FlatSystem, linear: LinearAnalysis) -> Aliases:
 def _rates(
     union: SignedUnion, definitions: list[Definition], states: set[int], known: frozenset[int] | set[int]
 ) -> tuple[dict[int, int], list[FlatEquation]]:
-    """Return x -> w for definitions ``w == der(x)`` that make chains of derivatives, and the equations of all others."""
+    """Return x -> w for definitions ``w == der(x)`` that make chains of derivatives, and the other equations."""
     rate: dict[int, int] = {}
     taken: set[int] = set()
     rest = []
     for equation, w, x, sign in definitions:
-        root_w, sign_w = union.find(w.index)
-        root_x, sign_x = union.find(x.index)
+        root_w, sign_w = union.find(w.number)
+        root_x, sign_x = union.find(x.number)
         end = root_w
         while end in rate:
             end = rate[end]
@@ -116,13 +116,13 @@ def _join_derivatives(union: SignedUnion, derivatives: list[Definition]) -> list
         remain, joined = [], False
         for entry in waiting:
             _, w, x, sign = entry
-            root, root_sign = union.find(x.index)
+            root, root_sign = union.find(x.number)
             if root not in defined:
-                defined[root] = (w.index, sign * root_sign)
+                defined[root] = (w.number, sign * root_sign)
                 remain.append(entry)
                 continue
             other, other_sign = defined[root]
-            if union.union(w.index, other, sign * root_sign * other_sign) is Outcome.KNOWN:
+            if union.union(w.number, other, sign * root_sign * other_sign) is Outcome.KNOWN:
                 remain.append(entry)  # stated twice: the matching will name it
             else:
                 joined = True
@@ -134,7 +134,7 @@ def _join_derivatives(union: SignedUnion, derivatives: list[Definition]) -> list
 def _differentiated(flat: FlatSystem) -> set[int]:
     """Return the variables whose derivative stands in an equation."""
     has_rate = {e.equation: any(a.kind == "der" for a in e.equation.atoms) for e in flat.equations}
-    return {a.index for e in flat.equations if has_rate[e.equation] for a in e.atoms() if a.kind == "der"}
+    return {a.number for e in flat.equations if has_rate[e.equation] for a in e.atoms() if a.kind == "der"}
 
 
 def _preference(flat: FlatSystem, states: set[int]) -> Callable[[int], tuple[object, ...]]:

@@ -32,7 +32,9 @@ class ReducedSystem:
     index: int
 
 
-def reduce_index(rows: list[Row], nodes: Nodes, linear: LinearAnalysis, evaluator: Evaluator) -> ReducedSystem:
+def reduce_index(
+    rows: list[Row], nodes: Nodes, linear: LinearAnalysis, evaluator: Evaluator
+) -> ReducedSystem:
     """Differentiate what must be differentiated; nodes of new derivatives are appended to ``nodes``.
 
     Raises StructureError where no number of differentiations makes equations and unknowns match.
@@ -63,7 +65,9 @@ def reduce_index(rows: list[Row], nodes: Nodes, linear: LinearAnalysis, evaluato
     except StructurallySingular as singular:
         raise _singular(singular, rows, nodes) from None
     texts = [rows[e].text for e, successor in enumerate(result.equation_derivative) if successor >= 0]
-    return ReducedSystem(rows, edges, frozenset(chosen.dummies), texts, 1 + _depth(result.equation_derivative))
+    return ReducedSystem(
+        rows, edges, frozenset(chosen.dummies), texts, 1 + _depth(result.equation_derivative)
+    )
 
 
 def _firm(edges: dict[int, Coefficient]) -> list[int]:
@@ -86,9 +90,11 @@ def _differentiated(row: Row, nodes: Nodes, linear: LinearAnalysis, evaluator: E
     def symbol(ref: Ref) -> SX:
         if ref.kind == "zero":
             return SX(0.0)
-        plain = Ref(ref.kind, ref.index)
+        plain = Ref(ref.kind, ref.number)
         if plain not in symbols:
-            symbols[plain] = SX.sym(nodes.name(ref.index) if ref.kind == "node" else f"{ref.kind}_{ref.index}")
+            symbols[plain] = SX.sym(
+                nodes.name(ref.number) if ref.kind == "node" else f"{ref.kind}_{ref.number}"
+            )
         return symbols[plain]
 
     value = evaluator(row, symbol)
@@ -103,11 +109,14 @@ def _differentiated(row: Row, nodes: Nodes, linear: LinearAnalysis, evaluator: E
                 cause="a constraint between states contains a signal whose derivative is not known",
                 remedy="pass the signal through a filter within the model",
             )
-        rate = SX(1.0) if ref.kind == "time" else symbol(Ref("node", nodes.derivative_of(ref.index)))
+        rate = SX(1.0) if ref.kind == "time" else symbol(Ref("node", nodes.derivative_of(ref.number)))
         total = total + slope * rate
     used = {s.element_hash() for s in ca.symvar(total)}
     refs = [ref for ref, own in symbols.items() if own.element_hash() in used]
-    atoms = [Atom("variable" if r.kind == "node" else "parameter" if r.kind == "parameter" else "time", r.index) for r in refs]
+    atoms = [
+        Atom("variable" if r.kind == "node" else "parameter" if r.kind == "parameter" else "time", r.number)
+        for r in refs
+    ]
     expression = Expression(total, [symbols[r] for r in refs], atoms)
     return Row(expression, tuple(refs), f"der({row.text})")
 
@@ -122,6 +131,12 @@ def _singular(singular: StructurallySingular, rows: list[Row], nodes: Nodes) -> 
         parts.append("not determined: " + ", ".join(variables[:12]))
     return StructureError(
         "the system is structurally singular: " + ". ".join(parts),
-        path=rows[singular.equations[0]].text.split(" ")[0] if equations else variables[0] if variables else "",
-        remedy="remove one of the equations named" if equations else "add an equation that determines one of them",
+        path=rows[singular.equations[0]].text.split(" ")[0]
+        if equations
+        else variables[0]
+        if variables
+        else "",
+        remedy="remove one of the equations named"
+        if equations
+        else "add an equation that determines one of them",
     )

@@ -74,7 +74,9 @@ def _coefficients(expression: Expression) -> dict[int, Coefficient]:
         return {}
     row = ca.jacobian(expression.value, ca.vertcat(*[expression.symbols[i] for i in positions]))
     varying = {
-        s.element_hash() for s, a in zip(expression.symbols, expression.atoms, strict=True) if a.kind != "parameter"
+        s.element_hash()
+        for s, a in zip(expression.symbols, expression.atoms, strict=True)
+        if a.kind != "parameter"
     }
     found: dict[int, Coefficient] = {}
     for k, column in enumerate(row.sparsity().get_col()):

@@ -23,7 +23,7 @@ class Ref(NamedTuple):
     """What a symbol of a row stands for: a node (unknown), or something known; ``sign`` times it."""
 
     kind: RefKind
-    index: int
+    number: int
     sign: int = 1
 
 
@@ -52,7 +52,9 @@ class Nodes:
         self.inputs = {aliases.root[i]: k for k, i in enumerate(flat.inputs)}
         if len(self.inputs) < len(flat.inputs):
             twice = next(i for k, i in enumerate(flat.inputs) if self.inputs[aliases.root[i]] != k)
-            raise StructureError("two external inputs are connected to each other", path=flat.variables[twice].path)
+            raise StructureError(
+                "two external inputs are connected to each other", path=flat.variables[twice].path
+            )
         self.all: list[Node] = []
         self.derivative: list[int] = []
         self._number: dict[int, int] = {}
@@ -82,7 +84,7 @@ class Nodes:
                 equation=text,
                 remedy="connect the input to a source within the model, or pass it through a filter",
             )
-        return ref if ref.kind == "zero" else Ref("node", self.derivative_of(ref.index), ref.sign)
+        return ref if ref.kind == "zero" else Ref("node", self.derivative_of(ref.number), ref.sign)
 
     def derivative_of(self, node: int) -> int:
         """Return the node of a node's derivative, made where it is met for the first time."""
@@ -96,12 +98,12 @@ class Nodes:
         """Return what an atom of the flat system stands for."""
         match atom.kind:
             case "variable":
-                return self.of_variable(atom.index)
+                return self.of_variable(atom.number)
             case "der":
-                return self.of_derivative(atom.index, text)
+                return self.of_derivative(atom.number, text)
             case "parameter":
-                return Ref("parameter", self.flat.parameter(atom.index))
-        return Ref(atom.kind, atom.index)
+                return Ref("parameter", self.flat.parameter(atom.number))
+        return Ref(atom.kind, atom.number)
 
     def row(self, equation: FlatEquation) -> Row:
         """Return the row of an equation."""
@@ -127,15 +129,15 @@ def incidence(row: Row, linear: LinearAnalysis) -> dict[int, Coefficient]:
         if ref.kind != "node":
             continue
         signed = coefficient if ref.sign > 0 else linear.negated(coefficient)
-        if ref.index not in found:
-            found[ref.index] = signed
+        if ref.number not in found:
+            found[ref.number] = signed
             continue
-        earlier = found[ref.index]
+        earlier = found[ref.number]
         both = earlier + signed if isinstance(earlier, float) and isinstance(signed, float) else None
         if both == 0.0:
-            del found[ref.index]
+            del found[ref.number]
         else:
-            found[ref.index] = both
+            found[ref.number] = both
     return found
 
 

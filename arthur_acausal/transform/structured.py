@@ -63,7 +63,9 @@ def report(dae: StructuredDAE) -> StructureReport:
     flat, causal, name = dae.flat, dae.causal, dae.nodes.name
     messages = []
     if dae.reduced.differentiated:
-        messages.append(f"{len(dae.reduced.differentiated)} equations were differentiated (index {dae.reduced.index})")
+        messages.append(
+            f"{len(dae.reduced.differentiated)} equations were differentiated (index {dae.reduced.index})"
+        )
     if flat.inputs:
         messages.append(f"{len(flat.inputs)} inputs come from outside")
     return StructureReport(

@@ -1,4 +1,4 @@
-"""Causalisation: matching, block triangular form, and explicit assignments where an equation can be solved by itself."""
+"""Causalisation: matching, block triangular form, explicit assignments where an equation can be solved alone."""
 
 from __future__ import annotations
 
@@ -50,7 +50,8 @@ def causalise(system: ReducedSystem, nodes: Nodes) -> CausalSystem:
     if min(assigned, default=0) < 0 or len(edges) != len(unknown):
         raise _unmatched(edges, assigned, unknown, system, nodes)
     solvable = [
-        {place[n] for n, c in e.items() if c is not None and n in place and n not in rates} for e in system.edges
+        {place[n] for n, c in e.items() if c is not None and n in place and n not in rates}
+        for e in system.edges
     ]
     algebraic = [[v for v in row if unknown[v] not in rates] for row in edges]
     assignments: list[Assignment] = []
