@@ -144,7 +144,7 @@ def picture(model: object, solution: Solution) -> Figure:
 
 def first_of_each_unit(solution: Solution, paths: Sequence[str]) -> list[str]:
     """As many of the paths as fit into one picture."""
-    from arthur_acausal.result.plot import MOST_LINES
+    from arthur_acausal.result.panel import MOST_LINES
 
     chosen: dict[str, list[str]] = {}
     for path in paths:

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from arthur_acausal.errors import ResultError
 from arthur_acausal.result.atomic import write_atomically
-from arthur_acausal.result.display import display_unit, labelled
-from arthur_acausal.result.interpolate import FloatArray
-from arthur_acausal.units import Unit
+from arthur_acausal.result.panel import Panel, Wanted, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,24 +38,20 @@ STYLE: dict[Any, Any] = {
     "savefig.dpi": 150.0,
 }
 WIDTH, PANEL_HEIGHT, MARGIN_HEIGHT = 9.0, 2.0, 0.9  # inches
-MOST_LINES = 28  # in one panel: as many as there are pairs of colour and style
 MOST_EVENTS = 30  # more lines would hide the curves
 LEGEND_ROWS = 13
 FORMATS = ("png", "pdf", "svg")
 
 
-def plot(
-    solution: Solution, patterns: str | Iterable[str], file: str | os.PathLike[str] | None = None
-) -> Figure:
-    """Draw variables over time, one panel for each unit, and write the picture where a file is given.
-
-    Raises ResultError where a pattern matches nothing, or the file cannot be written.
-    """
-    panels = group(solution, solution.select(patterns))
+def plot(solution: Solution, wanted: Wanted, file: str | os.PathLike[str] | None = None) -> Figure:
+    """Draw variables over time and write the picture where a file is given; see `Solution.plot`."""
+    chosen = panels(solution, wanted)
+    if not chosen:
+        raise ResultError("there is nothing to draw", remedy="name at least one variable")
     with style():
-        figure, axes = new_figure([PANEL_HEIGHT] * len(panels))
-        for ax, (unit, paths) in zip(axes, panels, strict=True):
-            draw(ax, solution, paths, unit)
+        figure, axes = new_figure([PANEL_HEIGHT] * len(chosen))
+        for ax, panel in zip(axes, chosen, strict=True):
+            draw(ax, solution, panel)
         finish(figure, axes, solution)
     if file is not None:
         write(figure, file)
@@ -85,61 +77,20 @@ def new_figure(heights: Sequence[float]) -> tuple[Figure, list[Axes]]:
     return figure, list(axes[:, 0])
 
 
-def group(solution: Solution, paths: Sequence[str]) -> list[tuple[Unit, list[str]]]:
-    """Paths by the unit that they are shown in, in the order of their first appearance."""
-    declared = {path: (solution.unit(path), solution.variable(path).display) for path in paths}
-    largest: dict[tuple[str, str], float] = {}
-    for path, key in declared.items():
-        largest[key] = max(largest.get(key, 0.0), magnitude(solution[path]))
-    units = {key: display_unit(*key, value) for key, value in largest.items()}
-    panels: dict[Unit, list[str]] = {}
-    for path, key in declared.items():
-        panels.setdefault(units[key], []).append(path)
-    for unit, members in panels.items():
-        if len(members) > MOST_LINES:
-            raise ResultError(
-                f"{len(members)} variables in {unit.text} are too many for one picture",
-                remedy=f"choose at most {MOST_LINES} of each unit",
-            )
-    return list(panels.items())
-
-
-def magnitude(values: FloatArray) -> float:
-    """Largest absolute value that is finite; 0 where there is none."""
-    return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
-
-
-def draw(
-    ax: Axes,
-    solution: Solution,
-    paths: Sequence[str],
-    unit: Unit,
-    name: str = "",
-    labels: Sequence[str] | None = None,
-) -> None:
-    """Draw variables of one unit into one panel, with a legend beside it.
-
-    ``name`` says at the axis what they are; without it their description or last name does.
-    """
-    for index, (path, label) in enumerate(zip(paths, labels or paths, strict=True)):
+def draw(ax: Axes, solution: Solution, panel: Panel) -> None:
+    """Draw a panel's lines, with a legend beside them."""
+    for index, (label, path) in enumerate(panel.lines.items()):
         ax.plot(
             solution.t,
-            unit.from_si(solution[path]),
+            panel.unit.from_si(solution[path]),
             color=PALETTE[index % len(PALETTE)],
             linestyle=STYLES[index % len(STYLES)],
             label=label,
         )
-    ax.set_ylabel(labelled(name or common_name(solution, paths), unit.text))
-    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), ncols=1 + (len(paths) - 1) // LEGEND_ROWS)
-
-
-def common_name(solution: Solution, paths: Sequence[str]) -> str:
-    """What all these variables are: the description or the last part of the path that they share."""
-    described = {solution.description(path) for path in paths}
-    for names in (described, {path.rpartition(".")[2] for path in paths}):
-        if len(names) == 1 and names != {""}:
-            return names.pop()
-    return ""
+    ax.set_ylabel(panel.label)
+    if panel.lines:
+        columns = 1 + (len(panel.lines) - 1) // LEGEND_ROWS
+        ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), ncols=columns)
 
 
 def finish(figure: Figure, axes: Sequence[Axes], solution: Solution) -> None:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from arthur_acausal.result.energy import Energy
+    from arthur_acausal.result.panel import Wanted
 
 
 class Values(Protocol):
@@ -221,11 +222,19 @@ class Solution:
 
         return load(file)
 
-    def plot(self, patterns: str | Iterable[str], file: str | os.PathLike[str] | None = None) -> Figure:
-        """Draw variables over time, one panel a unit, and write the picture where a file is given."""
+    def plot(self, wanted: Wanted, file: str | os.PathLike[str] | None = None) -> Figure:
+        """Draw variables over time, and write the picture where a file is given (png, pdf or svg).
+
+        Parameters
+        ----------
+        wanted : patterns, which give one panel for each unit; or panels, from the text at their axis with the
+            unit to patterns or labelled paths: ``{"pressure [bar]": {"supply": "manifold.p"}}``.
+
+        Raises ResultError or UnitError where that cannot be drawn, ResultError where the file cannot be written.
+        """
         from arthur_acausal.result.plot import plot
 
-        return plot(self, patterns, file)
+        return plot(self, wanted, file)
 
     def energy(self) -> Energy:
         """The model's energy audit. Raises ResultError where the model has none."""

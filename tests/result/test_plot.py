@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from arthur_acausal.errors import ResultError
+from arthur_acausal.errors import ResultError, UnitError
 from arthur_acausal.result.display import display_unit, labelled, pretty_unit
-from arthur_acausal.result.plot import MOST_LINES
+from arthur_acausal.result.panel import MOST_LINES
 from arthur_acausal.result.run import Run
 from arthur_acausal.result.solution import Solution
 from arthur_acausal.result.variable import Variable
@@ -66,6 +66,30 @@ def test_other_formats_are_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(ResultError, match=r"end the name in \.png, \.pdf, \.svg"):
         bounce().plot("ball.h", tmp_path / name)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_panels_that_are_asked_for() -> None:
+    figure = bounce().plot(
+        {
+            "supply [MPa]": {"first": "valves[0].port_a.p"},
+            "currents [mA]": "valves[*].I",
+            "own drawing [W]": (),
+            "count": ["ball.bounces"],
+        }
+    )
+    assert labels(figure) == ["supply [MPa]", "currents [mA]", "own drawing [W]", "count"]
+    supply, currents, own, _ = figure.axes
+    np.testing.assert_allclose(np.asarray(supply.lines[0].get_ydata()), bounce()["valves[0].port_a.p"] / 1e6)
+    assert [text.get_text() for text in supply.get_legend().get_texts()] == ["first"]  # type: ignore[union-attr]
+    assert len(currents.lines) == 3, "two currents and the event"
+    assert own.get_legend() is None
+
+
+def test_a_panel_of_another_dimension_is_refused() -> None:
+    with pytest.raises(UnitError, match=r"ball\.h is .*length.* and cannot be shown in bar"):
+        bounce().plot({"pressure [bar]": "ball.h"})
+    with pytest.raises(ResultError, match="nothing to draw"):
+        bounce().plot([])
 
 
 def test_values_that_are_not_finite_are_left_out(tmp_path: Path) -> None:
