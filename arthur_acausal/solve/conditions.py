@@ -39,24 +39,23 @@ class Conditions:
     undetermined: list[int] = field(default_factory=list)
 
 
-def choose(dae: DAE, evaluator: Evaluator, attributes: Attributes, given: set[int]) -> Conditions:
-    """Choose initial conditions; the evaluator holds the start values, `given` are states set for this run.
+def choose(dae: DAE, evaluator: Evaluator, attributes: Attributes) -> Conditions:
+    """Choose initial conditions; the evaluator holds the start values.
 
     Conditions that say the value of one state each are solved here at once: y gets that value.
     """
-    simple = _simple(dae, given)
+    simple = _simple(dae)
     rest = [k for k in range(dae.n_init) if k not in simple]
-    replaced = {k for k, state in simple.items() if state in given}
-    _solve_simple(dae, evaluator, {k: state for k, state in simple.items() if k not in replaced})
+    _solve_simple(dae, evaluator, simple)
     states = set(np.flatnonzero(dae.differential).tolist())
-    pinned = set(simple.values()) | given & states
+    pinned = set(simple.values())
     if not rest:
         assumed = states - pinned
         return Conditions(_index(states), _index(()), _index(assumed))
     return _match(dae, evaluator, attributes, pinned, rest, simple)
 
 
-def _simple(dae: DAE, given: set[int]) -> dict[int, int]:
+def _simple(dae: DAE) -> dict[int, int]:
     """Rows of h in which one state stands alone, each state once."""
     if not dae.n_init:
         return {}
@@ -66,7 +65,7 @@ def _simple(dae: DAE, given: set[int]) -> dict[int, int]:
     found: dict[int, int] = {}
     taken: set[int] = set()
     for k, j in zip(row.tolist(), column.tolist(), strict=True):
-        if alone[k] and j < dae.n and dae.differential[j] and (j not in taken or j in given):
+        if alone[k] and j < dae.n and dae.differential[j] and j not in taken:
             found[k] = j
             taken.add(j)
     return found

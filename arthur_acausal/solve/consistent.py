@@ -7,16 +7,13 @@ states may be unknown as well, with initial conditions in exchange.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from arthur_acausal.solve.newton import Solved, newton
+from arthur_acausal.solve.newton import Index, Matrix, Solve, Solved, SparseMatrix, newton
 from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator, FloatArray, Pattern
 
 DENSE_UP_TO = 200
-Index = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +67,7 @@ class ConsistentSystem:
         taken = np.flatnonzero((row >= 0) & (column >= 0))
         order = taken[np.lexsort((row[taken], column[taken]))]
         self._source, self._row, self._column = order, row[order], column[order]
-        self._pointer = np.searchsorted(self._column, np.arange(self.size + 1)).astype(np.int32)
+        self._colind = np.searchsorted(self._column, np.arange(self.size + 1)).astype(np.int32)
 
     def unknowns(self) -> FloatArray:
         """The unknowns as the evaluator holds them."""
@@ -86,7 +83,7 @@ class ConsistentSystem:
             return np.concatenate([values, evaluator.initial()[self.conditions]])
         return values
 
-    def matrix(self) -> Any:
+    def matrix(self) -> Matrix:
         """The Jacobian where the evaluator stands."""
         evaluator = self._evaluator
         evaluator.cj[0] = 1.0
@@ -94,14 +91,11 @@ class ConsistentSystem:
         if self._with_initial:
             parts.append(evaluator.initial_jacobian())
         values = np.concatenate(parts)[self._source]
-        if self.size <= DENSE_UP_TO:
-            dense = np.zeros((self.size, self.size))
-            dense[self._row, self._column] = values
-            return dense
-        from scipy.sparse import csc_matrix
-
-        shape = (self.size, self.size)
-        return csc_matrix((values, self._row.astype(np.int32), self._pointer), shape=shape)
+        if self.size > DENSE_UP_TO:
+            return SparseMatrix(values, self._row, self._column, self._colind)
+        dense = np.zeros((self.size, self.size))
+        dense[self._row, self._column] = values
+        return dense
 
     def scale(self) -> FloatArray:
         """Magnitudes of the unknowns: below these a value counts as small."""
@@ -121,6 +115,19 @@ class ConsistentSystem:
         self._evaluator.y[self.free] = solved.w[: self.free.size]
         self._evaluator.yp[self.states] = solved.w[self.free.size :]
         return solved
+
+    def rates(self, solve: Solve, ahead: float) -> FloatArray:
+        """Derivatives of the unknowns, by a forward difference of F along the solution over `ahead` seconds.
+
+        `solve` solves with the matrix of the consistent values, which the evaluator holds. The states move with y',
+        and what then remains of F is what the unknowns must take back. The caller moves the inputs along.
+        """
+        evaluator, states = self._evaluator, self.states
+        y = evaluator.y[states]
+        evaluator.y[states] += ahead * evaluator.yp[states]
+        remains = evaluator.residual().copy()
+        evaluator.y[states] = y
+        return -solve(remains) / ahead
 
 
 def _entries(pattern: Pattern) -> tuple[Index, Index]:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
-from arthur_acausal.solve.newton import equilibrated
+from arthur_acausal.solve.newton import Matrix, as_sparse, equilibrated, sparse, superlu
 from arthur_acausal.solve.protocol import FloatArray
 
 SHOWN = 6  # names in one message
@@ -15,47 +14,33 @@ PART = 0.1  # a component counts as part of a null vector from this part of the 
 PERTURBATION = 1e-12
 
 
-def null_vectors(matrix: Any, scale: FloatArray) -> tuple[list[int], list[int]]:
+def null_vectors(matrix: Matrix, scale: FloatArray) -> tuple[list[int], list[int]]:
     """Unknowns that a singular matrix leaves free and rows that depend on each other, the most involved first.
 
     One step of inverse iteration with a slightly perturbed diagonal: its result lies in the null space up to the
     size of the perturbation (Golub and Van Loan (2013), Matrix Computations, section 7.6.1).
     """
-    from scipy.sparse import csc_matrix, diags_array
-    from scipy.sparse.linalg import splu
-
-    dense = matrix if isinstance(matrix, np.ndarray) else None
-    if dense is not None:
-        scaled: Any = csc_matrix(equilibrated(dense, scale)[0])
-    else:
-        scaled = matrix @ diags_array(scale)
-        rows = abs(scaled).max(axis=1).toarray().ravel()
-        rows[rows == 0.0] = 1.0
-        scaled = diags_array(1.0 / rows) @ scaled
+    scaled = as_sparse(equilibrated(matrix, scale)[0])
     random = np.random.default_rng(0)
-    size = scaled.shape[0]
-    try:
-        factors = splu((scaled + diags_array(PERTURBATION * (1.0 + random.random(size)))).tocsc())
-    except RuntimeError:
+    diagonal = np.arange(scaled.size)
+    perturbed = np.concatenate([scaled.values, PERTURBATION * (1.0 + random.random(scaled.size))])
+    row, column = np.concatenate([scaled.row, diagonal]), np.concatenate([scaled.column, diagonal])
+    factors = superlu(sparse(perturbed, row, column, scaled.size))
+    if factors is None:
         return [], []
-    start = random.random(size) - 0.5
+    start = random.random(scaled.size) - 0.5
     return _parts(factors.solve(start)), _parts(factors.solve(start, trans="T"))
 
 
 def _parts(vector: FloatArray) -> list[int]:
     size = np.abs(vector)
-    order = np.argsort(-size, kind="stable")
-    return [int(i) for i in order if size[i] > PART * size[order[0]]]
+    order: list[int] = np.argsort(-size, kind="stable").tolist()
+    return [i for i in order if size[i] > PART * size[order[0]]]
 
 
-def scaled_rows(matrix: Any, residual: FloatArray, scale: FloatArray) -> FloatArray:
-    """Residuals over the change that the unknowns' magnitudes make in each row: 1 is as wrong as can be."""
-    if isinstance(matrix, np.ndarray):
-        rows = np.max(np.abs(matrix) * scale, axis=1, initial=0.0)
-    else:
-        rows = np.asarray(abs(matrix).multiply(scale).max(axis=1).toarray()).ravel()
-    rows[~(rows > 0.0)] = 1.0
-    return residual / rows
+def scaled_rows(matrix: Matrix, residual: FloatArray, scale: FloatArray) -> FloatArray:
+    """Residuals over the largest change that `scale` of an unknown makes in each row."""
+    return residual / equilibrated(matrix, scale)[1]
 
 
 def listed(names: Sequence[str], separator: str = ", ") -> str:

@@ -8,7 +8,7 @@ resolution are one. Modelica Language Specification 3.6, appendix B.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,8 +19,11 @@ from arthur_acausal.solve.diagnosis import listed
 from arthur_acausal.solve.initialize import failure
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.options import SolverOptions
-from arthur_acausal.solve.protocol import DAE, Attributes, BoolArray, Evaluator
+from arthur_acausal.solve.protocol import DAE, Attributes, BoolArray, Evaluator, FloatArray
 from arthur_acausal.solve.trajectory import Event
+
+DIFFERENCE = 1e-7  # forward difference, relative to the time in which a state moves by its own magnitude
+TINY = 1e-300
 
 
 @dataclass(slots=True)
@@ -49,6 +52,7 @@ class EventIteration:
         algebraic = np.flatnonzero(~dae.differential)
         self._has_algebraic = bool(algebraic.size)
         self._system = ConsistentSystem(dae, evaluator, attributes, algebraic, algebraic[:0])
+        self._factors: Callable[[FloatArray], FloatArray] | None = None
         self._scale = np.zeros(len(dae.relations))
 
     def handle(self, flagged: Mapping[int, bool], resolution: float, inputs_jump: bool = False) -> Outcome:
@@ -80,6 +84,36 @@ class EventIteration:
             raise self._unsettled(moving)
         self._relation_events(before, flagged, outcome)
         return outcome
+
+    def rates(self, refresh: Callable[[float], None], duration: float) -> FloatArray | None:
+        """Second derivatives of the states at the present consistent values, (n,); zero for algebraic variables.
+
+        The algebraic variables' derivatives go into y': IDA extrapolates with them. None if they are not finite.
+        `duration` is the time, s, over which the model moves at most by its own magnitude.
+        """
+        evaluator, system = self._evaluator, self._system
+        if not system.size:
+            return np.zeros(0)
+        if self._factors is None:
+            self._solve(Outcome())
+            assert self._factors is not None
+        t = float(evaluator.t[0])
+        speed = np.abs(evaluator.yp[system.states]) / np.maximum(
+            np.abs(evaluator.y[system.states]), system.nominal[system.states]
+        )
+        ahead = DIFFERENCE * min(duration, 1.0 / max(float(speed.max(initial=0.0)), TINY))
+        evaluator.t[0] = t + ahead
+        refresh(t + ahead)
+        rates = system.rates(self._factors, ahead)
+        evaluator.t[0] = t
+        refresh(t)
+        self._factors = None
+        if not np.isfinite(rates).all():
+            return None
+        evaluator.yp[system.free] = rates[: system.free.size]
+        second = np.zeros(self._dae.n)
+        second[system.states] = rates[system.free.size :]
+        return second
 
     def _right_limit(self, flagged: Mapping[int, bool], resolution: float, trust: float) -> BoolArray:
         """Truth values just after the instant.
@@ -144,6 +178,7 @@ class EventIteration:
         if not self._system.size:
             return
         solved = self._system.solve(self._options.newton_tolerance, self._options.newton_iterations)
+        self._factors = solved.factors
         outcome.iterations += solved.iterations
         if solved.reason:
             raise failure(self._dae, self._evaluator, self._system, solved)

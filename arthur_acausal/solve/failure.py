@@ -10,7 +10,7 @@ from arthur_acausal.errors import SimulationError
 from arthur_acausal.solve.callbacks import Monitor
 from arthur_acausal.solve.diagnosis import listed, null_vectors, scaled_rows
 from arthur_acausal.solve.ida import Stretch
-from arthur_acausal.solve.newton import factorise
+from arthur_acausal.solve.newton import SparseMatrix, factorise
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray
 from arthur_acausal.solve.trajectory import Trajectory
@@ -101,7 +101,7 @@ def suspect(
     residual = evaluator.residual().copy()
     evaluator.cj[0] = 1.0 / h
     matrix = _matrix(dae, evaluator.jacobian())
-    if np.isfinite(residual).all() and np.isfinite(matrix.data).all():
+    if np.isfinite(residual).all() and np.isfinite(matrix.values).all():
         scaled = np.abs(scaled_rows(matrix, residual, rtol * np.abs(y) + atol))
         row = int(np.argmax(scaled))
         if scaled[row] > 1.0:
@@ -116,7 +116,7 @@ def _singular(dae: DAE, evaluator: Evaluator, step: float) -> str:
     evaluator.cj[0] = 1.0 / step
     matrix = _matrix(dae, evaluator.jacobian())
     scale = np.ones(dae.n)
-    if not np.isfinite(matrix.data).all() or not factorise(matrix, scale)[1]:
+    if not np.isfinite(matrix.values).all() or not factorise(matrix, scale)[1]:
         return ""
     unknowns, rows = null_vectors(matrix, scale)
     return (
@@ -125,10 +125,10 @@ def _singular(dae: DAE, evaluator: Evaluator, step: float) -> str:
     )
 
 
-def _matrix(dae: DAE, values: FloatArray):  # type: ignore[no-untyped-def]
-    from scipy.sparse import csc_matrix
-
-    return csc_matrix((values.copy(), dae.sparsity.row, dae.sparsity.colind), shape=(dae.n, dae.n))
+def _matrix(dae: DAE, values: FloatArray) -> SparseMatrix:
+    pattern = dae.sparsity
+    columns = np.repeat(np.arange(dae.n), np.diff(pattern.colind))
+    return SparseMatrix(values.copy(), np.asarray(pattern.row, np.intp), columns, pattern.colind)
 
 
 def _state(dae: DAE, y: FloatArray, rows: FloatArray) -> str:

@@ -26,6 +26,8 @@ from arthur_acausal.solve.trajectory import Event, Recorder, Status, Trajectory
 # Events closer together than this, relative to time and step, are one. IDA finds a root to within 100 units of
 # rounding of the same sum, 2e-14 of it; a bounce at a fiftieth of the speed still counts as leaving at once.
 RESOLUTION = 1e-12
+FIRST_STEP_ERROR = 1e-5  # part of the tolerance that the first step after a start may use: order 1 is inaccurate
+FIRST_STEP_PART = 0.1  # the first step is no longer than this part of the way to the next known event
 
 
 class HybridRun:
@@ -39,13 +41,14 @@ class HybridRun:
         options: SolverOptions,
         inputs: Mapping[str, Input],
         parameters: Mapping[str, Any] | None,
+        start: Mapping[str, Any] | None,
         progress: Progress | None,
     ) -> None:
         self._begun = perf_counter()
         self._dae, self._options = dae, options
         self._start, self._stop = start_time, stop_time
         self._evaluator = evaluator = dae.evaluator()
-        self._p = dae.parameter_vector(parameters)
+        self._p = dae.parameter_vector(parameters, start)
         evaluator.p[:] = self._p
         evaluator.t[0] = start_time
         self._attributes = dae.attributes(self._p)
@@ -65,9 +68,9 @@ class HybridRun:
         self._events: list[Event] = []
         self._ended: tuple[Status, str] | None = None
 
-    def initialize(self, start: Mapping[str, float]) -> None:
+    def initialize(self) -> None:
         """Find consistent values at the start."""
-        done = initialize(self._dae, self._evaluator, self._attributes, self._modes, self._options, start)
+        done = initialize(self._dae, self._evaluator, self._attributes, self._modes, self._options)
         self._statistics.initial_iterations = done.iterations
         self._statistics.messages += done.messages
         self._record_point()
@@ -111,8 +114,9 @@ class HybridRun:
         times = np.concatenate([[t], self._grid[first:last], [end]])
         self._roots.restart(t + near)
         before = perf_counter()
+        first_step = self._first_step(end - t)
         y, yp = evaluator.y.copy(), evaluator.yp.copy()
-        stretch = self._engine.run(times, y, yp, self._options.first_step, self._options.store_steps)
+        stretch = self._engine.run(times, y, yp, first_step, self._options.store_steps)
         self._statistics.integrate_s += perf_counter() - before
         if stretch.t.size:
             t = float(stretch.t[-1])
@@ -124,6 +128,16 @@ class HybridRun:
         self._inputs.refresh(t)
         self._check_relations(stretch)
         self._arrive(stretch)
+
+    def _first_step(self, duration: float) -> float | None:
+        """A first step whose error, h^2 |y''| / 2, is a part of what the tolerance allows."""
+        second = self._iteration.rates(self._inputs.refresh, duration)
+        if self._options.first_step is not None or second is None:
+            return self._options.first_step
+        weighted = second / (self._options.rtol * np.abs(self._evaluator.y) + self._atol)
+        size = float(np.sqrt(np.mean(weighted**2))) if second.size else 0.0
+        longest = FIRST_STEP_PART * duration
+        return min(longest, (2.0 * FIRST_STEP_ERROR / size) ** 0.5) if size > 0.0 else longest
 
     def _arrive(self, stretch: Stretch) -> None:
         """Handle what is due at the end of a stretch."""

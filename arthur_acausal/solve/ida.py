@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import math
+import os
 import re
 import sys
 import warnings
@@ -140,13 +141,34 @@ class Ida:
     def _engine(self, first_step: float | None) -> Any:
         key = 0.0 if first_step is None else 4.0 ** math.floor(math.log(first_step, 4.0))
         if key not in self._engines:
-            from sksundae.ida import IDA
-
             with warnings.catch_warnings():
                 # "sparsity ignored in favor of jacfn": it gives the pattern of jacfn's values here
                 warnings.simplefilter("ignore")
-                self._engines[key] = IDA(self._residual, first_step=key, **self._settings)
+                self._engines[key] = load_ida()(self._residual, first_step=key, **self._settings)
         return self._engines[key]
+
+
+def load_ida() -> Any:
+    """Import the binding, with its OpenMP library limited to one thread.
+
+    SuperLU_MT opens a parallel region for each factorisation even with one thread of its own. The region's idle
+    threads spin for their turn, and where another process has the core, a factorisation then takes 8 ms in place of
+    0.1 ms. The library reads its setting once, when it is loaded.
+    """
+    if "sksundae.ida" not in sys.modules and "OMP_NUM_THREADS" not in os.environ:
+        import scipy.linalg
+        import scipy.optimize
+        import scipy.sparse  # noqa: F401 - these read the same setting: they come first, with the user's
+
+        os.environ["OMP_NUM_THREADS"] = "1"
+        try:
+            from sksundae.ida import IDA
+        finally:
+            del os.environ["OMP_NUM_THREADS"]
+        return IDA
+    from sksundae.ida import IDA
+
+    return IDA
 
 
 def _linear_solver(n: int, options: SolverOptions) -> str:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from arthur_acausal.errors import InitializationError, UsageError, nearest
+from arthur_acausal.errors import InitializationError
 from arthur_acausal.solve.conditions import Conditions, choose
 from arthur_acausal.solve.consistent import ConsistentSystem
 from arthur_acausal.solve.diagnosis import listed, null_vectors, scaled_rows
@@ -33,16 +32,15 @@ def initialize(
     attributes: Attributes,
     modes: Modes,
     options: SolverOptions,
-    start: Mapping[str, float] | None = None,
 ) -> Initialized:
     """Find y, y', z and the relations' modes that fulfil all equations and initial conditions at evaluator.t.
 
-    `start` overrides start values by path; a state that stands there keeps that value.
     Raises InitializationError, naming equations and unknowns.
     """
-    given = _start_values(dae, evaluator, attributes, start or {})
+    evaluator.y[:], evaluator.yp[:] = attributes.start, 0.0
+    evaluator.z[:] = evaluator.zp[:] = attributes.z_start
     modes.update()
-    conditions = choose(dae, evaluator, attributes, given)
+    conditions = choose(dae, evaluator, attributes)
     if conditions.undetermined:
         raise _undetermined(dae, conditions)
     free = np.setdiff1d(np.arange(dae.n), conditions.pinned)
@@ -64,31 +62,6 @@ def initialize(
     modes.settle()
     _check_surplus(dae, evaluator, attributes, conditions)
     return Initialized(iterations, _notices(dae, attributes, evaluator, conditions))
-
-
-def _start_values(
-    dae: DAE, evaluator: Evaluator, attributes: Attributes, start: Mapping[str, float]
-) -> set[int]:
-    """Fill the evaluator with start values; the states among the overridden ones."""
-    evaluator.y[:] = attributes.start
-    evaluator.yp[:] = 0.0
-    evaluator.z[:] = dae.z_start
-    place = {path: k for k, path in enumerate(dae.y_paths)}
-    discrete = {path: k for k, path in enumerate(dae.z_paths)}
-    given = set()
-    for path, value in start.items():
-        if path in place:
-            evaluator.y[place[path]] = value
-            given.add(place[path])
-        elif path in discrete:
-            evaluator.z[discrete[path]] = value
-        else:
-            raise UsageError(
-                f"there is no state, algebraic or discrete variable {path!r} to give a start value",
-                remedy=nearest(path, [*place, *discrete]),
-            )
-    evaluator.zp[:] = evaluator.z
-    return {j for j in given if dae.differential[j]}
 
 
 def unknown_names(dae: DAE, system: ConsistentSystem) -> list[str]:

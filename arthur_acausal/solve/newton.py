@@ -8,12 +8,17 @@ for Nonlinear Problems, sections 2.1.2 and 3.3.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, Protocol
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from arthur_acausal.solve.protocol import FloatArray
+from arthur_acausal.solve.protocol import FloatArray, IntArray
+
+Index = NDArray[np.intp]
+Solve = Callable[[FloatArray], FloatArray]
+Matrix: TypeAlias = "FloatArray | SparseMatrix"
 
 SMALLEST_DAMPING = 1e-8
 ROUNDING = 1e5  # corrections up to this many tolerances may be rounding errors that do not shrink any more
@@ -27,8 +32,8 @@ class Square(Protocol):
         """Residual at w; the array may be reused by the next call."""
         ...
 
-    def matrix(self) -> Any:
-        """Jacobian at the w of the last `residual` call: an (k, k) array, or a sparse matrix in columns."""
+    def matrix(self) -> Matrix:
+        """Jacobian at the w of the last `residual` call, (k, k)."""
         ...
 
 
@@ -42,12 +47,14 @@ class Solved:
     reason : "" if solved, else "singular", "no progress", "iterations" or "not finite".
     iterations : number of Jacobians.
     correction : largest scaled correction at the end.
+    factors : solves with the last Jacobian; None if there was none.
     """
 
     w: FloatArray
     reason: str
     iterations: int
     correction: float
+    factors: Solve | None = None
 
 
 def newton(
@@ -72,21 +79,21 @@ def newton(
         size = _size(step, w, scale)
         if size <= tolerance or not np.isfinite(size):
             w = np.clip(w + step, low, high) if np.isfinite(size) else w
-            return Solved(w, "singular" if singular else "", iteration, size)
+            return Solved(w, "singular" if singular else "", iteration, size, solve)
         found = _damped(system, solve, w, step, size, scale, low, high)
         if found is None:
             done = size <= ROUNDING * tolerance and not singular
-            return Solved(w, "" if done else "singular" if singular else "no progress", iteration, size)
+            return Solved(w, "" if done else "singular" if singular else "no progress", iteration, size, solve)
         w, residual, correction = found
         size = _size(correction, w, scale)
         if size <= tolerance and not singular:
-            return Solved(np.clip(w + correction, low, high), "", iteration, size)
+            return Solved(np.clip(w + correction, low, high), "", iteration, size, solve)
     return Solved(w, "iterations", most, size)
 
 
 def _damped(
     system: Square,
-    solve: Callable[[FloatArray], FloatArray],
+    solve: Solve,
     w: FloatArray,
     step: FloatArray,
     size: float,
@@ -111,51 +118,92 @@ def _size(step: FloatArray, w: FloatArray, scale: FloatArray) -> float:
     return float(np.max(np.abs(step) / np.maximum(np.abs(w), scale), initial=0.0))
 
 
-def equilibrated(matrix: FloatArray, scale: FloatArray) -> tuple[FloatArray, FloatArray]:
+@dataclass(frozen=True, slots=True)
+class SparseMatrix:
+    """A square matrix in compressed columns, `row` ascending in each column; `column` is that of each value."""
+
+    values: FloatArray
+    row: Index
+    column: Index
+    colind: IntArray
+
+    @property
+    def size(self) -> int:
+        """Number of rows."""
+        return self.colind.size - 1
+
+
+def sparse(values: FloatArray, row: Index, column: Index, size: int) -> SparseMatrix:
+    """Sort entries into columns; entries at the same place are added."""
+    from scipy.sparse import coo_matrix
+
+    matrix = coo_matrix((values, (row, column)), shape=(size, size)).tocsc()
+    matrix.sum_duplicates()
+    columns = np.repeat(np.arange(size), np.diff(matrix.indptr))
+    return SparseMatrix(matrix.data, matrix.indices.astype(np.intp), columns, matrix.indptr)
+
+
+def as_sparse(matrix: Matrix) -> SparseMatrix:
+    """The same matrix with its nonzero entries only."""
+    if isinstance(matrix, SparseMatrix):
+        return matrix
+    row, column = np.nonzero(matrix)
+    return sparse(matrix[row, column], row, column, len(matrix))
+
+
+def equilibrated(matrix: Matrix, scale: FloatArray) -> tuple[Matrix, FloatArray]:
     """Columns times scale, then rows over their largest entry; and those largest entries."""
+    if isinstance(matrix, SparseMatrix):
+        values = matrix.values * scale[matrix.column]
+        rows = np.zeros(matrix.size)
+        np.maximum.at(rows, matrix.row, np.abs(values))
+        rows[rows == 0.0] = 1.0
+        return replace(matrix, values=values / rows[matrix.row]), rows
     scaled = matrix * scale
     rows = np.max(np.abs(scaled), axis=1, initial=0.0)
     rows[rows == 0.0] = 1.0
     return scaled / rows[:, None], rows
 
 
-def factorise(matrix: Any, scale: FloatArray) -> tuple[Callable[[FloatArray], FloatArray], bool]:
-    """A solver for the matrix, and whether it is numerically singular (the solver then gives the least step)."""
-    if isinstance(matrix, np.ndarray):
-        return _factorise_dense(matrix, scale)
-    return _factorise_sparse(matrix, scale)
-
-
-def _factorise_dense(
-    matrix: FloatArray, scale: FloatArray
-) -> tuple[Callable[[FloatArray], FloatArray], bool]:
-    from scipy.linalg import lapack
-
-    if not matrix.size:
-        return (lambda b: b), False
+def factorise(matrix: Matrix, scale: FloatArray) -> tuple[Solve, bool]:
+    """A solver for the matrix, and whether it is numerically singular (a dense solver then gives the least step)."""
     scaled, rows = equilibrated(matrix, scale)
-    if not np.isfinite(scaled).all():
+    values = scaled.values if isinstance(scaled, SparseMatrix) else scaled
+    if not np.isfinite(values).all():
         return (lambda b: np.full_like(b, np.nan)), True
-    lu, pivots, info = lapack.dgetrf(scaled)
+    if isinstance(scaled, SparseMatrix):
+        return _factorise_sparse(scaled, rows, scale)
+    return _factorise_dense(scaled, rows, scale)
+
+
+def _factorise_dense(scaled: FloatArray, rows: FloatArray, scale: FloatArray) -> tuple[Solve, bool]:
+    from scipy.linalg import get_lapack_funcs
+
+    if not scaled.size:
+        return (lambda b: b), False
+    getrf, getrs, gecon = get_lapack_funcs(("getrf", "getrs", "gecon"), (scaled,))
+    lu, pivots, info = getrf(scaled)
     norm = np.max(np.sum(np.abs(scaled), axis=0))
-    if info > 0 or lapack.dgecon(lu, norm)[0] < SINGULAR:
+    if info > 0 or gecon(lu, norm)[0] < SINGULAR:
         return (lambda b: scale * np.linalg.lstsq(scaled, b / rows, rcond=1e-12)[0]), True
-    return (lambda b: scale * lapack.dgetrs(lu, pivots, b / rows)[0]), False
+    return (lambda b: scale * getrs(lu, pivots, b / rows)[0]), False
 
 
-def _factorise_sparse(matrix: Any, scale: FloatArray) -> tuple[Callable[[FloatArray], FloatArray], bool]:
-    from scipy.sparse import diags_array
-    from scipy.sparse.linalg import splu
-
-    scaled = (matrix @ diags_array(scale)).tocsr()
-    rows = abs(scaled).max(axis=1).toarray().ravel()
-    rows[rows == 0.0] = 1.0
-    scaled = (diags_array(1.0 / rows) @ scaled).tocsc()
-    if not np.isfinite(scaled.data).all():
-        return (lambda b: np.full_like(b, np.nan)), True
-    try:
-        factors = splu(scaled)
-    except RuntimeError:  # "Factor is exactly singular"
+def _factorise_sparse(scaled: SparseMatrix, rows: FloatArray, scale: FloatArray) -> tuple[Solve, bool]:
+    factors = superlu(scaled)
+    if factors is None:
         return (lambda b: np.full_like(b, np.nan)), True
     pivots = np.abs(factors.U.diagonal())
     return (lambda b: scale * factors.solve(b / rows)), bool(pivots.min() < SINGULAR * pivots.max())
+
+
+def superlu(matrix: SparseMatrix) -> Any:
+    """SuperLU's factors; None if the matrix is exactly singular."""
+    from scipy.sparse import csc_matrix
+    from scipy.sparse.linalg import splu
+
+    shape = (matrix.size, matrix.size)
+    try:
+        return splu(csc_matrix((matrix.values, matrix.row, matrix.colind), shape=shape))
+    except RuntimeError:  # "Factor is exactly singular"
+        return None

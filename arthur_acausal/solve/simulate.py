@@ -25,7 +25,7 @@ def simulate(
     options: SolverOptions | None = None,
     inputs: Mapping[str, Input] | None = None,
     parameters: Mapping[str, Any] | None = None,
-    start: Mapping[str, float] | None = None,
+    start: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> Trajectory:
     """Simulate a compiled model from start_time to stop_time, s.
@@ -34,7 +34,7 @@ def simulate(
     ----------
     inputs : external inputs by path: constants, functions of time, tables; the rest keep their defaults.
     parameters : parameter values by path.
-    start : start values by path that override the model's; a state given here keeps its value.
+    start : start values by path that override the model's.
     progress : called with the present time about ten times a second.
 
     Raises
@@ -46,16 +46,11 @@ def simulate(
     """
     if not (np.isfinite(start_time) and np.isfinite(stop_time) and stop_time > start_time):
         raise UsageError(f"stop_time {stop_time} is not a finite time after start_time {start_time}")
+    chosen = options or SolverOptions()
     run = HybridRun(
-        dae,
-        float(start_time),
-        float(stop_time),
-        options or SolverOptions(),
-        inputs or {},
-        parameters,
-        progress,
+        dae, float(start_time), float(stop_time), chosen, inputs or {}, parameters, start, progress
     )
-    run.initialize(start or {})
+    run.initialize()
     try:
         return run.integrate()
     except ArthurError as error:

@@ -108,6 +108,7 @@ class Attributes:
     nominal: FloatArray
     min: FloatArray
     max: FloatArray
+    z_start: FloatArray
 
 
 @dataclass
@@ -162,8 +163,9 @@ class Handmade:
         self.differential: BoolArray = np.array([v.kind == "state" for v in self.ys], dtype=bool)
         self.row_labels = list(self.equations)
         self.u_paths, self.u_default = [v.path for v in self.us], np.array([v.start for v in self.us])
-        self.z_paths, self.z_start = [v.path for v in self.zs], np.array([v.start for v in self.zs])
-        fixed = [(f"{v.path} = {v.start:g} (fixed start)", v.s - v.start) for v in self.ys if v.fixed]
+        self.z_paths = [v.path for v in self.zs]
+        self._starts = {v.path: casadi.SX.sym(f"start({v.path})") for v in [*self.ys, *self.zs]}
+        fixed = [(f"fixed start of {v.path}", v.s - self._starts[v.path]) for v in self.ys if v.fixed]
         self.h = [*self.initial.values(), *(value for _, value in fixed)]
         self.init_labels = [*self.initial, *(label for label, _ in fixed)]
         self.n_init = len(self.h)
@@ -189,19 +191,29 @@ class Handmade:
                     found.append(Assignment(kind, place, number, value=value))
         return found + [Assignment("discrete", self.zs.index(z), -1, value=value) for z, value in self.always]
 
-    def parameter_vector(self, overrides: Mapping[str, Any] | None = None) -> FloatArray:
-        overrides = overrides or {}
-        return np.array([float(overrides.get(name, value)) for name, (_, value) in self.parameters.items()])
+    def parameter_vector(
+        self, overrides: Mapping[str, Any] | None = None, start: Mapping[str, Any] | None = None
+    ) -> FloatArray:
+        """The parameters, then the start values of y and z."""
+        overrides, start = overrides or {}, start or {}
+        values = [float(overrides.get(name, value)) for name, (_, value) in self.parameters.items()]
+        starts = [float(start.get(v.path, v.start)) for v in [*self.ys, *self.zs]]
+        return np.array(values + starts)
+
+    def p_symbols(self) -> list[Any]:
+        """The symbols behind `parameter_vector`."""
+        return [*(symbol for symbol, _ in self.parameters.values()), *self._starts.values()]
 
     def attributes(self, p: FloatArray) -> Attributes:
-        ys = self.ys
+        ys, starts = self.ys, p[len(self.parameters) :]
         return Attributes(
-            np.array([v.start for v in ys]),
+            starts[: self.n].copy(),
             np.array([v.fixed for v in ys], dtype=bool),
             np.array([v.given for v in ys], dtype=bool),
             np.array([v.nominal for v in ys]),
             np.array([v.min for v in ys]),
             np.array([v.max for v in ys]),
+            starts[self.n :].copy(),
         )
 
     def evaluator(self) -> HandmadeEvaluator:
@@ -215,13 +227,13 @@ class HandmadeEvaluator:
         n, nz = dae.n, len(dae.zs)
         self.t, self.cj = np.zeros(1), np.zeros(1)
         self.y, self.yp = np.zeros(n), np.zeros(n)
-        self.p, self.u = np.zeros(len(dae.parameters)), np.zeros(len(dae.us))
+        self.p, self.u = dae.parameter_vector(), np.zeros(len(dae.us))
         self.z, self.zp, self.m = np.zeros(nz), np.zeros(nz), np.zeros(len(dae.relations))
         arguments = [
             (TIME, self.t),
             (dae._y, self.y),
             (dae._yp, self.yp),
-            (_column(symbol for symbol, _ in dae.parameters.values()), self.p),
+            (_column(dae.p_symbols()), self.p),
             (_column(v.s for v in dae.us), self.u),
             (_column(v.s for v in dae.zs), self.z),
             (_column(v.d for v in dae.zs), self.zp),
