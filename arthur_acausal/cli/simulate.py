@@ -159,13 +159,13 @@ def tell(request: Request, translation: Translation, solution: Solution, written
     if request.as_json:
         extras: dict[str, Any] = {"translation_s": translation_s}
         if verified is not None:
-            extras["verify"] = {"worst": verified.worst, "path": verified.path}
+            extras["verify"] = {"worst": verified.largest, "path": verified.path}
         typer.echo(json.dumps(outcome.as_object(solution, extras), ensure_ascii=False))
         return
     typer.echo(outcome.as_text(solution, translation_s))
     if verified is not None:
         typer.echo(
-            f"\nverified: the worst equation is off by {verified.worst:.1e} of its scale, {verified.path}"
+            f"\nverified: the worst equation is off by {verified.largest:.1e} of its scale, {verified.path}"
         )
     for line in written:
         typer.echo(f"\nwrote {line}" if line == written[0] else f"wrote {line}")
