@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import gc
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from time import perf_counter
@@ -109,13 +111,14 @@ def translate(
     ------
     DeclarationError, UnitError, ConnectError, ParameterError, StructureError : with path, equation and file:line.
     """
-    begun = perf_counter()
-    flat = flatten(model, name=name, check_units=check_units)
-    flattened = perf_counter()
-    structured = transform(flat)
-    transformed = perf_counter()
-    dae = generate(structured, compile=compile)
-    done = perf_counter()
+    with _no_collection():
+        begun = perf_counter()
+        flat = flatten(model, name=name, check_units=check_units)
+        flattened = perf_counter()
+        structured = transform(flat)
+        transformed = perf_counter()
+        dae = generate(structured, compile=compile)
+        done = perf_counter()
     seconds = {
         "flatten": flattened - begun,
         "transform": transformed - flattened,
