@@ -54,7 +54,7 @@ class TwoPin(Component):
 class Resistor(TwoPin):
     """Ohm's law, v = R i."""
 
-    R: Real = parameter("Ohm", min=0.0)
+    R: Real = parameter("ohm", min=0.0)
 
     def equations(self) -> Equations:
         yield from super().equations()

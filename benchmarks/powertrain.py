@@ -50,7 +50,7 @@ def race() -> dict[str, Any]:
     from arthur_acausal.models.arthur.demo import demo_inputs
     from arthur_acausal.models.arthur.powertrain import Powertrain
     from benchmarks.powertrain_byhand import flat, trot
-    from benchmarks.race import REFERENCE_RTOL, Idas, alternate, error, fastest
+    from benchmarks.race import REFERENCE_RTOL, Idas, alternate, error, fastest, states_on
 
     grid = np.linspace(0.0, STOP_TIME, INTERVALS + 1)
     equations = flat(trot)

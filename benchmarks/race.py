@@ -76,7 +76,7 @@ def fastest(flat: Flat, grid: Array, rtol: float, jit: bool = False) -> tuple[st
 
 
 def states_on(grid: Array, solution: Solution, paths: Sequence[str]) -> Array:
-    """Return our solution's variables at the grid's times; of two rows at an event's time, the one after it."""
+    """Return our variables at the grid's times; of two rows at an event, the one after it."""
     rows = np.searchsorted(solution.t, grid + 1e-12 * grid[-1], side="right") - 1
     return np.stack([solution[path][rows] for path in paths])
 

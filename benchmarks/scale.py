@@ -40,7 +40,7 @@ def measure_one(n: int) -> dict[str, Any]:
     begin = time.perf_counter()
     translation = translate(Ladder(n=n))
     translated = time.perf_counter()
-    solution = translation.simulate(STOP_TIME, rtol=RTOL)
+    solution = translation.simulate(STOP_TIME, tolerance=RTOL)
     simulated = time.perf_counter()
     peak = peak_mb()
     errors = {}
@@ -49,7 +49,7 @@ def measure_one(n: int) -> dict[str, Any]:
         errors[node] = float(np.max(np.abs(solution[f"capacitors[{node - 1}].v"] - exact)))
     return {
         "n": n,
-        "equations": translation.counts.equations,
+        "equations": translation.report.equations,
         "translate_s": translated - begin,
         "simulate_s": simulated - translated,
         "total_s": simulated - begin,
