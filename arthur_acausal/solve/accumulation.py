@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from itertools import pairwise
 
 from arthur_acausal.errors import SimulationError
 
@@ -23,7 +24,7 @@ class Accumulation:
         times = self._times
         times.append(t)
         recent = list(times)[-(SHRINKING + 2) :]
-        intervals = [b - a for a, b in zip(recent, recent[1:], strict=False)]
+        intervals = [b - a for a, b in pairwise(recent)]
         if len(intervals) > SHRINKING and intervals[-1] < self._shortest and _shrinks(intervals):
             raise SimulationError(
                 f"the events accumulate at t = {t:.9g} s (Zeno): the last intervals are {intervals[-2]:.2g} s and "
@@ -41,4 +42,4 @@ class Accumulation:
 
 
 def _shrinks(intervals: list[float]) -> bool:
-    return all(later < earlier for earlier, later in zip(intervals, intervals[1:], strict=False))
+    return all(later < earlier for earlier, later in pairwise(intervals))

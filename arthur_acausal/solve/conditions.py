@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from arthur_acausal.graph import dulmage_mendelsohn, matching
-from arthur_acausal.solve.consistent import Entries, Index
+from arthur_acausal.solve.consistent import Entries
+from arthur_acausal.solve.newton import Index
 from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator
 
 Edges = list[list[int]]

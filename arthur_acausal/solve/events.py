@@ -14,10 +14,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from arthur_acausal.errors import SimulationError
-from arthur_acausal.solve.consistent import ConsistentSystem, Index
+from arthur_acausal.solve.consistent import ConsistentSystem
 from arthur_acausal.solve.diagnosis import listed
 from arthur_acausal.solve.initialize import failure
 from arthur_acausal.solve.modes import Modes
+from arthur_acausal.solve.newton import Index, Solve
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Attributes, BoolArray, Evaluator, FloatArray
 from arthur_acausal.solve.trajectory import Event
@@ -34,11 +35,13 @@ class Outcome:
     ----------
     events : one for each relation that changed, `when` clause that acted, and termination.
     iterations : Newton iterations.
+    affected : whether the continuous equations or their states have changed: integration must start anew.
     terminate : the message of a terminate() that was reached.
     """
 
     events: list[Event] = field(default_factory=list)
     iterations: int = 0
+    affected: bool = False
     terminate: str | None = None
 
 
@@ -52,38 +55,47 @@ class EventIteration:
         algebraic = np.flatnonzero(~dae.differential)
         self._has_algebraic = bool(algebraic.size)
         self._system = ConsistentSystem(dae, evaluator, attributes, algebraic, algebraic[:0])
-        self._factors: Callable[[FloatArray], FloatArray] | None = None
+        self._factors: Solve | None = None
         self._scale = np.zeros(len(dae.relations))
+        self._residual = np.zeros(dae.n)
 
     def handle(self, flagged: Mapping[int, bool], resolution: float, inputs_jump: bool = False) -> Outcome:
         """Handle the event at the evaluator's t, y, y'. `flagged` are relations known to change, and to what.
 
         `resolution` is the time, s, within which events are one.
         """
-        evaluator, outcome = self._evaluator, Outcome()
+        evaluator, outcome = self._evaluator, Outcome(affected=inputs_jump)
         before = evaluator.m > 0.5
-        dirty = inputs_jump
-        reset = False
+        self._residual = evaluator.residual().copy()
+        pending, reset = inputs_jump, False
         for number in range(self._options.max_event_iterations):
             modes = self._right_limit(flagged, resolution, np.inf if number == 0 else 0.0 if reset else 1.0)
             moving = np.flatnonzero(modes != (evaluator.m > 0.5))
-            moved = moving.size > 0
             evaluator.m[:] = modes
             rising = self._rising()
-            if number and not moved and not dirty and not rising.any():
+            pending |= moving.size > 0
+            if number and not pending and not rising.any():
                 break
-            if rising.any() and self._has_algebraic and (moved or dirty):
-                self._solve(outcome)
-            changed, was_reset = self._act(rising, outcome)
+            if pending and self._has_algebraic and rising.any():
+                self._follow(outcome, inputs_jump)  # what the `when` clauses read must hold in the new modes
+            acted, was_reset = self._act(rising, outcome)
             reset |= was_reset
-            if changed or moved or dirty:
-                self._solve(outcome)
-            dirty = not np.array_equal(evaluator.z, evaluator.zp)
+            if acted or pending:
+                self._follow(outcome, was_reset or inputs_jump)
+            pending = not np.array_equal(evaluator.z, evaluator.zp)
             evaluator.zp[:] = evaluator.z
         else:
             raise self._unsettled(moving)
         self._relation_events(before, flagged, outcome)
         return outcome
+
+    def _follow(self, outcome: Outcome, changed: bool) -> None:
+        """Solve for consistent values, unless F is what it was: then the event concerns discrete variables only."""
+        residual = self._evaluator.residual()
+        if changed or not np.array_equal(residual, self._residual):
+            self._solve(outcome)
+            outcome.affected = True
+            self._residual = self._evaluator.residual().copy()
 
     def rates(self, refresh: Callable[[float], None], duration: float) -> FloatArray | None:
         """Second derivatives of the states at the present consistent values, (n,); zero for algebraic variables.
@@ -127,7 +139,7 @@ class EventIteration:
         t, y = float(evaluator.t[0]), evaluator.y.copy()
         self._scale = np.maximum(self._scale, np.abs(evaluator.roots()))
         evaluator.t[0] = t + resolution
-        evaluator.y += resolution * evaluator.yp
+        evaluator.y[:] += resolution * evaluator.yp
         g = evaluator.roots().copy()
         evaluator.t[0], evaluator.y[:] = t, y
         truth = self._modes.truth(g)
@@ -168,8 +180,8 @@ class EventIteration:
                 evaluator.y[a.index] = values[k]
             elif a.kind == "terminate":
                 outcome.terminate = a.message
-        for k in np.flatnonzero(rising):
-            when = dae.whens[int(k)]
+        for number in np.flatnonzero(rising).tolist():
+            when = dae.whens[number]
             outcome.events.append(Event(float(evaluator.t[0]), when.label, when.where, "when"))
         return reset or not np.array_equal(before, evaluator.z), reset
 

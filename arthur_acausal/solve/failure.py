@@ -12,7 +12,7 @@ from arthur_acausal.solve.diagnosis import listed, null_vectors, scaled_rows
 from arthur_acausal.solve.ida import Stretch
 from arthur_acausal.solve.newton import SparseMatrix, factorise
 from arthur_acausal.solve.options import SolverOptions
-from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray
+from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray, IntArray
 from arthur_acausal.solve.trajectory import Trajectory
 
 NO_FINITE = "give limits or smooth laws that keep the equation in its range, or a smaller max_step"
@@ -131,7 +131,7 @@ def _matrix(dae: DAE, values: FloatArray) -> SparseMatrix:
     return SparseMatrix(values.copy(), np.asarray(pattern.row, np.intp), columns, pattern.colind)
 
 
-def _state(dae: DAE, y: FloatArray, rows: FloatArray) -> str:
+def _state(dae: DAE, y: FloatArray, rows: IntArray) -> str:
     """Values of the unknowns in these rows."""
     columns = np.repeat(np.arange(dae.n), np.diff(dae.sparsity.colind))
     present = np.unique(columns[np.isin(dae.sparsity.row, rows)])

@@ -18,7 +18,7 @@ from arthur_acausal.solve.initialize import initialize
 from arthur_acausal.solve.inputs import Input, Inputs
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.options import SolverOptions
-from arthur_acausal.solve.protocol import DAE
+from arthur_acausal.solve.protocol import DAE, FloatArray
 from arthur_acausal.solve.schedule import Schedule
 from arthur_acausal.solve.statistics import Statistics
 from arthur_acausal.solve.trajectory import Event, Recorder, Status, Trajectory
@@ -26,7 +26,9 @@ from arthur_acausal.solve.trajectory import Event, Recorder, Status, Trajectory
 # Events closer together than this, relative to time and step, are one. IDA finds a root to within 100 units of
 # rounding of the same sum, 2e-14 of it; a bounce at a fiftieth of the speed still counts as leaving at once.
 RESOLUTION = 1e-12
-FIRST_STEP_ERROR = 1e-5  # part of the tolerance that the first step after a start may use: order 1 is inaccurate
+FIRST_STEP_ERROR = (
+    1e-5  # part of the tolerance that the first step after a start may use: order 1 is inaccurate
+)
 FIRST_STEP_PART = 0.1  # the first step is no longer than this part of the way to the next known event
 
 
@@ -67,6 +69,7 @@ class HybridRun:
         self._recorder = Recorder()
         self._events: list[Event] = []
         self._ended: tuple[Status, str] | None = None
+        self._stepping = self._affected = False
 
     def initialize(self) -> None:
         """Find consistent values at the start."""
@@ -114,13 +117,11 @@ class HybridRun:
         times = np.concatenate([[t], self._grid[first:last], [end]])
         self._roots.restart(t + near)
         before = perf_counter()
-        first_step = self._first_step(end - t)
-        y, yp = evaluator.y.copy(), evaluator.yp.copy()
-        stretch = self._engine.run(times, y, yp, first_step, self._options.store_steps)
+        stretch = self._integrate(times)
         self._statistics.integrate_s += perf_counter() - before
+        y, yp = evaluator.y, evaluator.yp
         if stretch.t.size:
-            t = float(stretch.t[-1])
-            y, yp = stretch.y[-1], stretch.yp[-1]
+            t, y, yp = float(stretch.t[-1]), stretch.y[-1], stretch.yp[-1]
             u = self._inputs.sample(stretch.t)
             self._recorder.add(stretch.t, stretch.y, stretch.yp, u, evaluator.z.copy(), evaluator.m.copy())
         self._check(stretch, t, y, yp)
@@ -128,6 +129,22 @@ class HybridRun:
         self._inputs.refresh(t)
         self._check_relations(stretch)
         self._arrive(stretch)
+
+    def _integrate(self, times: FloatArray) -> Stretch:
+        """Over one stretch; anew after an event that has changed the equations, else on from where IDA was.
+
+        A model with events that concern discrete variables only goes output by output, so that IDA can go on.
+        """
+        stop, store_steps = float(times[-1]), self._options.store_steps
+        method = self._engine.step_through if self._stepping else self._engine.run
+        if self._stepping and not self._affected and self._engine.can_continue(stop):
+            first_step = None
+        else:
+            self._engine.forget()
+            first_step = self._first_step(stop - float(times[0]))
+            self._statistics.restarts += 1
+        y, yp = self._evaluator.y.copy(), self._evaluator.yp.copy()
+        return method(times, y, yp, first_step, store_steps)
 
     def _first_step(self, duration: float) -> float | None:
         """A first step whose error, h^2 |y''| / 2, is a part of what the tolerance allows."""
@@ -153,7 +170,6 @@ class HybridRun:
         if jump:
             self._events.append(Event(t, "an input jumps", kind="input"))
         if flagged or jump:
-            self._statistics.restarts += 1
             self._event(flagged, jump)
         if self._ended is None and self._stop - t <= near:
             self._ended = ("finished", "")
@@ -165,6 +181,8 @@ class HybridRun:
         self._inputs.begin(t, near)
         outcome = self._iteration.handle(flagged, near, jump)
         self._schedule.update(t, t + near)
+        self._affected = outcome.affected
+        self._stepping |= bool(flagged) and not outcome.affected
         if flagged or jump or outcome.events:
             self._events += outcome.events
             self._statistics.events += 1

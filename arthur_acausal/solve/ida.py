@@ -88,6 +88,8 @@ class Ida:
         if self._eventsfn is not None:
             self._settings |= {"eventsfn": self._eventsfn, "num_events": int(roots.index.size)}
         self._engines: dict[float, Any] = {}
+        self._stepping: Any = None
+        self._reached = -math.inf
 
     def run(
         self,
@@ -97,9 +99,10 @@ class Ida:
         first_step: float | None,
         onestep: bool = False,
     ) -> Stretch:
-        """Integrate from (times[0], y, yp) over the later times; with `onestep` return IDA's own steps instead."""
+        """Start from (times[0], y, yp) and integrate over the later times; `onestep`: return IDA's own steps."""
         engine = self._engine(first_step)
         self._monitor.restart()
+        self._stepping = None
         start = times[0]
         inserted = len(times) == 2 and not onestep
         if inserted:  # the binding takes two times as an order to return its own steps
@@ -110,9 +113,55 @@ class Ida:
             y = yp = np.zeros(1)
         with _Capture() as printed:
             result = engine.solve(times, y, yp)
-        return self._stretch(result, start, inserted, printed.text())
+        first = 2 if inserted and len(result.t) > 2 else 1
+        if len(result.t) > first and result.t[-1] <= start:  # failed in the first step
+            first = len(result.t)
+        return self._stretch(result, result.t[first:], result.y[first:], result.yp[first:], printed.text())
 
-    def _stretch(self, result: Any, start: float, inserted: bool, printed: str) -> Stretch:
+    def step_through(
+        self,
+        times: FloatArray,
+        y: FloatArray,
+        yp: FloatArray,
+        first_step: float | None,
+        onestep: bool = False,
+    ) -> Stretch:
+        """Like `run`, output by output, so that IDA can be asked to go on after a root without a new start.
+
+        If `can_continue`, the integration goes on from where it was, and y, yp and first_step are not used.
+        """
+        if not self.can_continue(times[-1]):
+            self._monitor.restart()
+            self._stepping = self._engine(first_step)
+            zero = np.zeros(1)
+            self._stepping.init_step(times[0], y if self._n else zero, yp if self._n else zero)
+        method, stop = ("onestep" if onestep else "normal"), float(times[-1])
+        rows = []
+        with _Capture() as printed:
+            for t in times[1:].tolist():
+                while True:
+                    result = self._stepping.step(stop if onestep else t, method, stop)
+                    if result.status >= 0 or result.t > times[0]:
+                        rows.append((result.t, result.y, result.yp))
+                    if result.status < 0 or result.status == ROOT_RETURN or not onestep or result.t >= stop:
+                        break
+                if result.status < 0 or result.status == ROOT_RETURN or result.t >= stop:
+                    break
+        self._reached = self._monitor.t
+        if result.status < 0:
+            self._stepping = None
+        columns = [np.array(column) for column in zip(*rows, strict=True)] if rows else [np.zeros(0)] * 3
+        return self._stretch(result, columns[0], columns[1], columns[2], printed.text())
+
+    def forget(self) -> None:
+        """The next `step_through` is to start anew."""
+        self._stepping = None
+
+    def can_continue(self, stop: float) -> bool:
+        """Whether `step_through` can go on to `stop`: IDA has not stepped over it yet."""
+        return self._stepping is not None and stop >= self._reached
+
+    def _stretch(self, result: Any, t: FloatArray, y: FloatArray, yp: FloatArray, printed: str) -> Stretch:
         flag = int(result.status)
         end: End = "failed" if flag < 0 else "root" if flag == ROOT_RETURN else "reached"
         if self._monitor.halted:
@@ -124,19 +173,8 @@ class Ida:
             for found in (self._eventsfn._i, self._eventsfn._t, self._eventsfn._y, self._eventsfn._yp):
                 found.clear()  # the binding would keep and copy the events of all starts
             self._eventsfn._i_cnt[:] = 0
-        first = 2 if inserted and len(result.t) > 2 else 1
-        if len(result.t) > first and result.t[-1] <= start:  # failed in the first step
-            first = len(result.t)
-        keep = slice(first, None)
-        return Stretch(
-            result.t[keep],
-            result.y[keep, : self._n],
-            result.yp[keep, : self._n],
-            end,
-            directions,
-            flag,
-            printed or str(result.message),
-        )
+        y, yp = (a.reshape(len(t), -1)[:, : self._n] for a in (y, yp))
+        return Stretch(t, y, yp, end, directions, flag, printed or str(result.message))
 
     def _engine(self, first_step: float | None) -> Any:
         key = 0.0 if first_step is None else 4.0 ** math.floor(math.log(first_step, 4.0))

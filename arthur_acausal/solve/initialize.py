@@ -66,13 +66,15 @@ def initialize(
 
 def unknown_names(dae: DAE, system: ConsistentSystem) -> list[str]:
     """Names of the system's unknowns, in order."""
-    paths = dae.y_paths
-    return [paths[j] for j in system.free] + [f"der({paths[j]})" for j in system.states]
+    free: list[int] = system.free.tolist()
+    states: list[int] = system.states.tolist()
+    return [dae.y_paths[j] for j in free] + [f"der({dae.y_paths[j]})" for j in states]
 
 
 def row_names(dae: DAE, system: ConsistentSystem) -> list[str]:
     """Names of the system's rows, in order."""
-    return [*dae.row_labels, *(dae.init_labels[k] for k in system.conditions)]
+    conditions: list[int] = system.conditions.tolist()
+    return [*dae.row_labels, *(dae.init_labels[k] for k in conditions)]
 
 
 def failure(dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: Solved) -> InitializationError:
@@ -82,7 +84,7 @@ def failure(dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: So
     bad = np.flatnonzero(~np.isfinite(residual))
     if solved.reason == "not finite" or bad.size:
         return InitializationError(
-            f"at t = {evaluator.t[0]:g} s these equations have no finite value: {listed([rows[i] for i in bad])}",
+            f"at t = {evaluator.t[0]:g} s these have no finite value: {listed([rows[i] for i in bad.tolist()], '; ')}",
             cause=f"the start values are {_values(dae, evaluator, system)}",
             remedy="give start values inside the range of the equations",
         )
@@ -98,7 +100,7 @@ def failure(dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: So
             remedy="give the missing relation or initial condition, or remove what is said twice",
         )
     scaled = scaled_rows(matrix, residual, scale)
-    worst = np.argsort(-np.abs(scaled), kind="stable")[:5]
+    worst = np.argsort(-np.abs(scaled), kind="stable")[:5].tolist()
     told = "; ".join(f"{rows[i]}: {residual[i]:.3g} (scaled {scaled[i]:.1g})" for i in worst)
     return InitializationError(
         f"no consistent values at t = {evaluator.t[0]:g} s after {solved.iterations} Newton iterations "
@@ -108,7 +110,7 @@ def failure(dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: So
 
 
 def _values(dae: DAE, evaluator: Evaluator, system: ConsistentSystem) -> str:
-    return listed([f"{dae.y_paths[j]} = {evaluator.y[j]:.6g}" for j in system.free])
+    return listed([f"{dae.y_paths[j]} = {evaluator.y[j]:.6g}" for j in system.free.tolist()])
 
 
 def _undetermined(dae: DAE, conditions: Conditions) -> InitializationError:
@@ -157,7 +159,7 @@ def _notices(dae: DAE, attributes: Attributes, evaluator: Evaluator, conditions:
     """What was assumed."""
     messages = []
     if conditions.assumed.size:
-        names = [f"{dae.y_paths[j]} = {evaluator.y[j]:g}" for j in conditions.assumed]
+        names = [f"{dae.y_paths[j]} = {evaluator.y[j]:g}" for j in conditions.assumed.tolist()]
         messages.append(f"no initial condition, start value taken: {listed(names)}")
     if conditions.surplus:
         labels = [dae.init_labels[k] for k in conditions.surplus]
@@ -165,6 +167,6 @@ def _notices(dae: DAE, attributes: Attributes, evaluator: Evaluator, conditions:
     low, high = attributes.min, attributes.max
     outside = np.flatnonzero((evaluator.y < low) | (evaluator.y > high))
     if outside.size:
-        names = [f"{dae.y_paths[j]} = {evaluator.y[j]:g}" for j in outside]
+        names = [f"{dae.y_paths[j]} = {evaluator.y[j]:g}" for j in outside.tolist()]
         messages.append(f"initial values outside min and max: {listed(names)}")
     return messages

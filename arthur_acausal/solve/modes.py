@@ -21,7 +21,7 @@ class Modes:
 
     def truth(self, g: FloatArray) -> BoolArray:
         """Which relations hold for these values."""
-        return (g > 0.0) | ((g == 0.0) & self._inclusive)
+        return np.asarray((g > 0.0) | ((g == 0.0) & self._inclusive))
 
     def update(self) -> bool:
         """Set all modes from the present values; whether any changed."""

@@ -83,7 +83,9 @@ def newton(
         found = _damped(system, solve, w, step, size, scale, low, high)
         if found is None:
             done = size <= ROUNDING * tolerance and not singular
-            return Solved(w, "" if done else "singular" if singular else "no progress", iteration, size, solve)
+            return Solved(
+                w, "" if done else "singular" if singular else "no progress", iteration, size, solve
+            )
         w, residual, correction = found
         size = _size(correction, w, scale)
         if size <= tolerance and not singular:
@@ -137,7 +139,7 @@ def sparse(values: FloatArray, row: Index, column: Index, size: int) -> SparseMa
     """Sort entries into columns; entries at the same place are added."""
     from scipy.sparse import coo_matrix
 
-    matrix = coo_matrix((values, (row, column)), shape=(size, size)).tocsc()
+    matrix: Any = coo_matrix((values, (row, column)), shape=(size, size)).tocsc()
     matrix.sum_duplicates()
     columns = np.repeat(np.arange(size), np.diff(matrix.indptr))
     return SparseMatrix(matrix.data, matrix.indices.astype(np.intp), columns, matrix.indptr)

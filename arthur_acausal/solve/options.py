@@ -101,7 +101,7 @@ class SolverOptions:
         number = math.ceil((stop_time - start_time) / self.output_interval - 1e-9)
         times = start_time + self.output_interval * np.arange(number + 1)
         times[-1] = stop_time
-        return times
+        return np.asarray(times, dtype=np.float64)
 
     def absolute_tolerances(self, paths: list[str], nominal: FloatArray) -> FloatArray:
         """The vector of absolute tolerances of the unknowns with these paths and nominal values."""

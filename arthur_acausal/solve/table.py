@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from bisect import bisect_right
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Literal
 
@@ -173,7 +174,7 @@ def _coefficients(times: FloatArray, values: FloatArray, bounds: list[int], inte
     order = 3 if interpolation == "pchip" else 1
     result = np.zeros((order + 1, len(times), values.shape[1]))
     result[-1] = values
-    for low, high in zip(bounds, bounds[1:], strict=False):
+    for low, high in pairwise(bounds):
         if high - low < 2:
             continue
         t, v = times[low:high], values[low:high]

@@ -130,10 +130,11 @@ class Kernel:
         self._function = casadi.Function(name, [casadi.densify(a) for a, _ in arguments], [result])
         self.out = np.zeros(max(result.nnz(), 0))
         self._arguments = [array for _, array in arguments]
+        self._buffer: Any
         self._buffer, self._trigger = self._function.buffer()
         for k, array in enumerate(self._arguments):
-            self._buffer.set_arg(k, memoryview(array))
-        self._buffer.set_res(0, memoryview(self.out))
+            self._buffer.set_arg(k, array.data)
+        self._buffer.set_res(0, self.out.data)
 
     def __call__(self) -> FloatArray:
         if self.out.size:
