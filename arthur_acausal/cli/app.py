@@ -38,11 +38,10 @@ NO_OPTIONS: list[str] = []
 @reported
 def list_models(debug: Debug = False) -> None:
     """List the models that ship with the package."""
-    from arthur_acausal.cli.describe import summary
-    from arthur_acausal.cli.locate import find_model, short_names
     from arthur_acausal.cli.table import table
+    from arthur_acausal.models import DESCRIPTIONS, REGISTRY
 
-    typer.echo(table([[name, summary(find_model(name))] for name in sorted(short_names())], "lw", indent=0))
+    typer.echo(table([[name, DESCRIPTIONS.get(name, "")] for name in REGISTRY], "lw", indent=0))
 
 
 @app.command()

@@ -4,26 +4,15 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
+from arthur_acausal.cli.alike import alike
 from arthur_acausal.cli.settings import structural_parameters
-from arthur_acausal.cli.table import count, number, table
+from arthur_acausal.cli.table import WIDTH, count, number, table
 from arthur_acausal.result.display import display_unit, pretty_unit
 
 if TYPE_CHECKING:
     from arthur_acausal.api import Translation
-    from arthur_acausal.codegen.parameters import ParameterInfo
-
-INDEX = re.compile(r"\[(\d+)\]")
-
-
-class Part(NamedTuple):
-    """A part of a model: its path, its class, and how many alike stand in the same array."""
-
-    path: str
-    kind: str
-    number: int
 
 
 def as_text(translation: Translation) -> str:
@@ -38,7 +27,7 @@ def as_text(translation: Translation) -> str:
         ]
     )
     sections = [
-        f"{flat.name}: {counts}\n\n{inspect.getdoc(type(model)) or '(no description)'}",
+        f"{flat.name}: {counts}\n\n{filled(unquoted(inspect.getdoc(type(model)) or ''))}",
         titled("parts", parts(translation)),
         titled("structural parameters", structural(type(model), model)),
         titled("parameters", parameters(translation)),
@@ -55,43 +44,46 @@ def titled(title: str, text: str) -> str:
 def parts(translation: Translation) -> str:
     """The tree of parts; equal members of an array stand together."""
     found = [
-        (component._binding.path, type(component))
-        for component in translation.flat.components
-        if component._binding
+        (c._binding.path, type(c)) for c in translation.flat.components if c._binding and c._binding.path
     ]
     rows = [
-        [f"{'  ' * depth(part.path)}{last(part.path)}", part.kind, summary(kind)]
-        for part, kind in together(found)
-        if part.path
+        [f"{'  ' * path.count('.')}{path.rpartition('.')[2]}", kinds[0].__name__, summary(kinds[0])]
+        for path, kinds in alike(found)
     ]
-    return table(rows, "llw")
-
-
-def together(found: Iterable[tuple[str, type[Any]]]) -> list[tuple[Part, type[Any]]]:
-    """Parts with each array's members of one class joined to one."""
-    groups: dict[tuple[str, type[Any]], list[str]] = {}
-    for path, kind in found:
-        groups.setdefault((INDEX.sub("[*]", path), kind), []).append(path)
-    return [
-        (Part(general if len(paths) > 1 else paths[0], kind.__name__, len(paths)), kind)
-        for (general, kind), paths in groups.items()
-    ]
-
-
-def depth(path: str) -> int:
-    """How deep a part stands below the model."""
-    return path.count(".")
-
-
-def last(path: str) -> str:
-    """The last name of a path."""
-    return path.rpartition(".")[2]
+    room = WIDTH - sum(max((len(row[k]) for row in rows), default=0) for k in (0, 1)) - 6
+    return table([[name, kind, shortened(text, room)] for name, kind, text in rows], "lll")
 
 
 def summary(kind: type[Any]) -> str:
-    """The first sentence of a class's docstring."""
-    line = (kind.__doc__ or "").strip().partition("\n")[0]
-    return line
+    """The first line of a class's docstring, or of the class that it specialises."""
+    from arthur_acausal.declare.model import Component
+
+    text = inspect.getdoc(kind) or ""
+    return "" if text == inspect.getdoc(Component) else text.partition("\n")[0]
+
+
+def shortened(text: str, room: int) -> str:
+    """A text of one line; what does not fit is cut at a word."""
+    text = unquoted(text)
+    if len(text) <= room:
+        return text
+    return text[: room - 1].rpartition(" ")[0] + "…" if room > 10 else ""
+
+
+def unquoted(text: str) -> str:
+    """A docstring as people read it: code without its quotes."""
+    return re.sub(r"``(.+?)``", r"\1", text)
+
+
+def filled(text: str, width: int = WIDTH) -> str:
+    """A docstring with its paragraphs filled to a line's width; what is indented stays as it is."""
+    import textwrap
+
+    paragraphs = [
+        part if "\n " in part else textwrap.fill(part, width, break_long_words=False, break_on_hyphens=False)
+        for part in text.split("\n\n")
+    ]
+    return "\n\n".join(paragraphs)
 
 
 def structural(kind: type[Any], model: object) -> str:
@@ -108,37 +100,24 @@ def structural(kind: type[Any], model: object) -> str:
 
 def parameters(translation: Translation) -> str:
     """Parameters with their defaults and units; equal ones of an array's members stand together."""
-    infos, values = translation.dae.parameters.infos, translation.dae.parameters.vector()
-    groups: dict[tuple[str, float], list[ParameterInfo]] = {}
-    for info, value in zip(infos, values.tolist(), strict=True):
-        groups.setdefault((INDEX.sub("[*]", info.path), value), []).append(info)
-    whole: dict[str, int] = {}
-    for (general, _), members in groups.items():
-        whole[general] = whole.get(general, 0) + len(members)
+    table_of = translation.dae.parameters
+    pairs = zip(table_of.infos, table_of.vector().tolist(), strict=True)
     rows = []
-    for (general, value), members in groups.items():
-        alike = len(members) == whole[general] and len(members) > 1
-        for info in members[:1] if alike else members:
-            rows.append([general if alike else info.path, *shown(value, info), info.description])
+    for name, members in alike((info.path, (info, value)) for info, value in pairs):
+        equal = len({value for _, value in members}) == 1
+        for info, value in members[:1] if equal else members:
+            unit = display_unit(info.unit, info.display or "", abs(value))
+            text = number(unit.from_si(value), 6)
+            rows.append([name if equal else info.path, text, pretty_unit(unit.text), info.description])
     return table(rows, "lrlw")
-
-
-def shown(value: float, info: ParameterInfo) -> Sequence[str]:
-    """A parameter's default in the unit that people read, and this unit."""
-    unit = display_unit(info.unit, info.display or "", abs(value))
-    return number(unit.from_si(value), 6), pretty_unit(unit.text)
 
 
 def inputs(translation: Translation) -> str:
-    """Inputs from outside with their defaults and units."""
+    """Inputs from outside with their defaults and units; those of an array's members stand together."""
     dae = translation.dae
-    groups: dict[tuple[str, float, str], list[str]] = {}
-    for path, value, unit in zip(dae.u_paths, dae.u_default.tolist(), dae.u_units, strict=True):
-        groups.setdefault((INDEX.sub("[*]", path), value, unit), []).append(path)
-    rows = []
-    for (general, value, unit), paths in groups.items():
-        which = general if len(paths) > 1 else paths[0]
-        rows.append(
-            [which, number(value), pretty_unit(unit), f"{len(paths)} inputs" if len(paths) > 1 else ""]
-        )
-    return table(rows, "lrlw")
+    triples = zip(dae.u_paths, dae.u_default.tolist(), dae.u_units, strict=True)
+    rows = [
+        [name, number(members[0][0]), pretty_unit(members[0][1])]
+        for name, members in alike((path, (value, unit)) for path, value, unit in triples)
+    ]
+    return table(rows, "lrl")

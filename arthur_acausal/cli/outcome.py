@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from arthur_acausal.cli.alike import alike
 from arthur_acausal.cli.table import count, duration, number, table
 from arthur_acausal.result.display import display_unit, pretty_unit
 from arthur_acausal.result.run import plain
@@ -12,8 +13,10 @@ from arthur_acausal.result.run import plain
 if TYPE_CHECKING:
     from arthur_acausal.result.energy import Energy
     from arthur_acausal.result.solution import Solution
+    from arthur_acausal.result.verify import Verification
 
-FINAL_VALUES = 12  # more would push the rest off the screen; --json has all
+WORST = 3  # equations that a verification shows
+FINAL_VALUES = 20  # more would push the rest off the screen; --json has all
 
 
 def as_object(solution: Solution, extras: Mapping[str, Any]) -> dict[str, Any]:
@@ -24,7 +27,8 @@ def as_object(solution: Solution, extras: Mapping[str, Any]) -> dict[str, Any]:
         "status": run.status,
         "message": run.message,
         "start_time": run.start_time,
-        "stop_time": float(solution.t[-1]),
+        "stop_time": run.stop_time,
+        "end_time": float(solution.t[-1]),
         "statistics": run.statistics,
         "events": len(run.events),
         "final": solution.final_values(),
@@ -51,27 +55,23 @@ def as_text(solution: Solution, translation_s: float) -> str:
 def statistics(solution: Solution, translation_s: float) -> str:
     """Counts and times of the run."""
     s: dict[str, Any] = plain(solution.statistics)
-    per_call = f"{s['us_per_residual_call']:.3g} µs each, IDA included"
-    times = [
-        f"{duration(s[f'{phase}_s'])} {name}"
-        for phase, name in (
-            ("initialize", "initialisation"),
-            ("integrate", "integration"),
-            ("events", "events"),
-            ("output", "output"),
-        )
-    ]
+    kinds = f"{s['state_events']} state, {s['time_events']} time, {count(s['restarts'], 'restart')}"
+    other_s = s["events_s"] + s["output_s"]
+    times = (
+        f"{duration(s['initialize_s'])} initialise, {duration(s['integrate_s'])} integrate, "
+        f"{duration(other_s)} other"
+    )
     rows = [
         ["unknowns", count(s["unknowns"]), f"{s['linear_solver']} linear solver"],
         ["steps", count(s["steps"]), f"and {count(s['rejected_steps'])} rejected"],
-        ["residual calls", count(s["residual_evaluations"]), per_call],
-        ["Jacobians", count(s["jacobian_evaluations"]), "each factorised once"],
         [
-            "events",
-            count(s["events"]),
-            f"{s['state_events']} state, {s['time_events']} time, {count(s['restarts'], 'restart')}",
+            "residual calls",
+            count(s["residual_evaluations"]),
+            f"{s['us_per_residual_call']:.3g} µs each, all included",
         ],
-        ["simulation", duration(s["total_s"]), ", ".join(times)],
+        ["Jacobians", count(s["jacobian_evaluations"]), "each factorised once"],
+        ["events", count(s["events"]), kinds] if s["events"] else ["events", "0"],
+        ["simulation", duration(s["total_s"]), times],
         ["translation", duration(translation_s)],
     ]
     if s["non_finite_residuals"]:
@@ -82,18 +82,18 @@ def statistics(solution: Solution, translation_s: float) -> str:
 
 
 def energy(audit: Energy) -> str:
-    """The energy audit, each term in J and as a part of the input."""
+    """The energy audit, each term in J and as a part of the input; losses of an array's members are summed."""
     whole = audit.input_J or 1.0
 
     def row(name: str, value: float) -> list[str]:
         return [name, f"{value:.3f}", f"{100.0 * value / whole:.2f}"]
 
-    losses = sorted(audit.losses_J.items(), key=lambda item: -abs(item[1]))
+    losses = [(name, sum(members)) for name, members in alike(audit.losses_J.items())]
     rows = [
         ["", "J", "%"],
         row("input", audit.input_J),
         row("losses", sum(audit.losses_J.values())),
-        *(row(f"  {name}", value) for name, value in losses),
+        *(row(f"  {name}", value) for name, value in sorted(losses, key=lambda item: -abs(item[1]))),
         row("work on the loads", audit.work_J),
         row("stored", audit.stored_J),
     ]
@@ -102,17 +102,36 @@ def energy(audit: Energy) -> str:
 
 
 def final_values(solution: Solution) -> str:
-    """The states at the end, in the units that people read."""
-    states = [variable for variable in solution.variables.values() if variable.kind == "state"]
+    """The states at the end, in the units that people read; those of an array's members as a range."""
+    summed = set(audited(solution.run.audit))
+    states = [v for v in solution.variables.values() if v.kind == "state" and v.path not in summed]
+    groups = alike((variable.path, variable) for variable in states)
     rows = []
-    for variable in states[:FINAL_VALUES]:
-        value = solution.final(variable.path)
-        unit = display_unit(variable.unit, variable.display, abs(value))
-        rows.append(
-            [variable.path, number(unit.from_si(value), 6), pretty_unit(unit.text), variable.description]
-        )
+    for name, members in groups[:FINAL_VALUES]:
+        values = [solution.final(variable.path) for variable in members]
+        first = members[0]
+        unit = display_unit(first.unit, first.display, max(map(abs, values)))
+        ends = [number(unit.from_si(value), 5) for value in (min(values), max(values))]
+        text = ends[0] if ends[0] == ends[1] else f"{ends[0]} … {ends[1]}"
+        rows.append([name, text, pretty_unit(unit.text), first.description])
     if not rows:
         return ""
-    more = len(states) - len(rows)
+    more = sum(len(members) for _, members in groups[FINAL_VALUES:])
     rest = f"\n  and {count(more, 'more state')}; --json lists every variable" if more else ""
     return "states at the end\n" + table(rows, "lrlw") + rest
+
+
+def verification(found: Verification) -> str:
+    """How well the raw equations hold, and which hold worst."""
+    rows = [[f"{item.scaled:.1e}", f"at {item.time:.4g} s", item.equation] for item in found.worst[:WORST]]
+    title = f"verification: {count(found.equations, 'raw equation')}, residuals relative to their terms"
+    return f"{title}\n{table(rows, 'rlw')}"
+
+
+def audited(terms: Any) -> Iterator[str]:
+    """All paths that an energy audit names."""
+    if isinstance(terms, Mapping):
+        for value in terms.values():
+            yield from audited(value)
+    else:
+        yield from ([terms] if isinstance(terms, str) else terms)

@@ -162,10 +162,9 @@ def tell(request: Request, translation: Translation, solution: Solution, written
             extras["verify"] = {"worst": verified.largest, "path": verified.path}
         typer.echo(json.dumps(outcome.as_object(solution, extras), ensure_ascii=False))
         return
-    typer.echo(outcome.as_text(solution, translation_s))
+    sections = [outcome.as_text(solution, translation_s)]
     if verified is not None:
-        typer.echo(
-            f"\nverified: the worst equation is off by {verified.largest:.1e} of its scale, {verified.path}"
-        )
-    for line in written:
-        typer.echo(f"\nwrote {line}" if line == written[0] else f"wrote {line}")
+        sections.append(outcome.verification(verified))
+    if written:
+        sections.append("\n".join(f"wrote {line}" for line in written))
+    typer.echo("\n\n".join(sections))

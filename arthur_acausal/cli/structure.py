@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from arthur_acausal.cli.alike import names
 from arthur_acausal.cli.table import count, table, wrap
 
 if TYPE_CHECKING:
@@ -41,9 +42,11 @@ def as_text(report: StructureReport) -> str:
         ["parameters", count(report.parameters)],
     ]
     parts = [f"{report.model}: its equations determine its unknowns", table(rows, "lrw")]
-    parts += [listing("states", report.states), listing("algebraic unknowns", report.torn), blocks(report)]
+    parts += [listing("states", names(report.states)), listing("algebraic unknowns", names(report.torn))]
+    parts += [blocks(report)]
     parts += [listing("differentiated equations", report.differentiated, one_a_line=True)]
-    parts += [listing("derivatives that became algebraic", report.dummies), listing("inputs", report.inputs)]
+    parts += [listing("derivatives that became algebraic", names(report.dummies))]
+    parts += [listing("inputs", names(report.inputs))]
     parts += [listing("notes", report.messages, one_a_line=True)]
     return "\n\n".join(part for part in parts if part)
 

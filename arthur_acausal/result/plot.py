@@ -26,6 +26,7 @@ STYLES = ("-", "--", "-.", ":")
 STYLE: dict[Any, Any] = {
     "font.size": 9.0,
     "axes.grid": True,
+    "axes.axisbelow": True,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.formatter.useoffset": False,
@@ -95,7 +96,7 @@ def draw(ax: Axes, solution: Solution, panel: Panel) -> None:
 
 def finish(figure: Figure, axes: Sequence[Axes], solution: Solution) -> None:
     """Title, time axis, and a thin line at each event where they are few."""
-    figure.suptitle(solution.run.description or solution.model, x=0.01, ha="left", fontsize=11.0)
+    figure.suptitle(title(solution), x=0.01, ha="left", fontsize=11.0)
     figure.align_ylabels(list(axes))
     axes[-1].set_xlabel("time [s]")
     span = solution.t[0], solution.t[-1]
@@ -105,6 +106,13 @@ def finish(figure: Figure, axes: Sequence[Axes], solution: Solution) -> None:
     for ax in axes:
         for time in times if len(times) <= MOST_EVENTS else ():
             ax.axvline(time, color="#999999", linewidth=0.5, zorder=0.5)
+
+
+def title(solution: Solution) -> str:
+    """What the model is; how the run ended, where that was early."""
+    about = solution.run.description.removesuffix(".") or solution.model
+    status = solution.run.status
+    return about if status == "finished" else f"{about} ({status} at {solution.t[-1]:.4g} s)"
 
 
 def write(figure: Figure, file: str | os.PathLike[str]) -> None:

@@ -36,6 +36,7 @@ class ComputedValues:
         self._trajectory = trajectory
         self._states = {path: k for k, path in enumerate(dae.y_paths) if dae.differential[k]}
         self.t: FloatArray = trajectory.t
+        self.modes: FloatArray = trajectory.m
         self.variables = describe(dae)
 
     def observe(self, paths: Sequence[str]) -> FloatArray:

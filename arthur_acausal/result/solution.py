@@ -38,6 +38,11 @@ class Values(Protocol):
         """All variables by path, in the model's order."""
         ...
 
+    @property
+    def modes(self) -> FloatArray:
+        """Truth values (nt, number of relations), 0 or 1, of the relations that make events."""
+        ...
+
     def observe(self, paths: Sequence[str]) -> FloatArray:
         """Values (nt, len(paths)) in SI."""
         ...
@@ -187,6 +192,11 @@ class Solution:
     def versions(self) -> Mapping[str, str]:
         """Versions of the software that computed it."""
         return self.run.versions or versions_here()
+
+    @property
+    def modes(self) -> FloatArray:
+        """Truth values (nt, number of relations), 0 or 1, of the relations that make events."""
+        return self._values.modes
 
     def __repr__(self) -> str:
         name = self.run.model or "model"

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 FORMAT = "arthur-acausal solution 1"
 VARIABLE, DERIVATIVE = "variable", "derivative"  # roles: of the model, or a state's dx/dt for interpolation
+RELATIONS, RELATION = "truth of relations", "relation"  # a variable and its second axis
 TEXT_ATTRIBUTES = ("model", "description", "status", "message")
 JSON_ATTRIBUTES = ("parameters", "inputs", "start", "options", "statistics", "events", "audit")
 VERSION = "_version"
@@ -54,6 +55,7 @@ def to_bytes(solution: Solution) -> bytes:
     dataset = netcdf_file(buffer, "w", version=2)
     dataset.createDimension(TIME, solution.t.size)
     columns = write_columns(dataset, solution)
+    columns |= write_modes(dataset, solution)
     write_run(dataset, solution, checksum(columns))
     dataset.flush()
     return buffer.getvalue()
@@ -74,6 +76,15 @@ def write_columns(dataset: netcdf_file, solution: Solution) -> dict[str, FloatAr
             about = {"units": f"({variable.unit})/s", "role": DERIVATIVE}
             write_column(dataset, derivative_name(path), slope, about)
     return columns
+
+
+def write_modes(dataset: netcdf_file, solution: Solution) -> dict[str, FloatArray]:
+    """Put the truth values of relations into the dataset where there are any; return them by name."""
+    if not solution.modes.size:
+        return {}
+    dataset.createDimension(RELATION, solution.modes.shape[1])
+    dataset.createVariable(RELATIONS, "i1", (TIME, RELATION)).data[...] = solution.modes
+    return {RELATIONS: solution.modes}
 
 
 def write_column(dataset: netcdf_file, name: str, values: FloatArray, about: Said) -> None:

@@ -18,6 +18,7 @@ from arthur_acausal.result.run import Run
 from arthur_acausal.result.solution import Solution
 from arthur_acausal.result.store import (
     FORMAT,
+    RELATIONS,
     TEXT_ATTRIBUTES,
     VARIABLE,
     VERSION,
@@ -41,6 +42,7 @@ class StoredValues:
         self._columns = columns
         self.variables = variables
         self.t: FloatArray = columns[TIME]
+        self.modes: FloatArray = columns.get(RELATIONS, np.empty((self.t.size, 0)))
 
     def observe(self, paths: Sequence[str]) -> FloatArray:
         """Values (nt, len(paths)); what is fixed in time is repeated."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from math import pi
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from casadi import SX
 
-from arthur_acausal import Component, Equations, Real, connect, parameter, start
+from arthur_acausal import Component, Equations, Real, Solution, connect, parameter, start
 from arthur_acausal.components.blocks import EnergyMeter
 from arthur_acausal.components.hydraulic import (
     GPM,
@@ -29,6 +29,9 @@ from arthur_acausal.components.hydraulic import (
 from arthur_acausal.components.translational import LoadForce
 from arthur_acausal.models.arthur.energy import audit_terms, powers
 from arthur_acausal.models.arthur.options import Options, options_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 P_START = 3e5
 """Pressure [Pa] of Table 5, everywhere."""
@@ -166,6 +169,12 @@ class Powertrain(Component):
     def audit_terms(self) -> dict[str, Any]:
         """Return the paths that sum to each term of the energy balance: of energies, or else of powers."""
         return audit_terms(self._choice().supply, self.n, self.audit)
+
+    def figure(self, solution: Solution) -> Figure:
+        """Return the picture of a run: speed, pressures, flows, chamber pressures and powers."""
+        from arthur_acausal.models.arthur.picture import picture
+
+        return picture(solution)
 
     def _choice(self) -> Options:
         return options_of(self.variant) if self.options is None else self.options

@@ -23,8 +23,10 @@ class Table:
         columns: Mapping[str, FloatArray],
         variables: Mapping[str, Variable],
         slopes: Mapping[str, FloatArray] | None = None,
+        modes: FloatArray | None = None,
     ) -> None:
         self.t = t
+        self.modes = np.empty((t.size, 0)) if modes is None else modes
         self.variables = variables
         self.asked: list[str] = []
         self._columns = columns
@@ -85,7 +87,8 @@ def bounce_values() -> Table:
         "ball.g": np.array(2.0),
         "größe.ω": 100.0 * t,
     }
-    return Table(t, columns, VARIABLES, {"ball.h": speed, "ball.v": np.full_like(t, -2.0)})
+    slopes = {"ball.h": speed, "ball.v": np.full_like(t, -2.0)}
+    return Table(t, columns, VARIABLES, slopes, modes=np.column_stack([after, ~after]).astype(float))
 
 
 def bounce_run() -> Run:

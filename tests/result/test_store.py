@@ -40,6 +40,7 @@ def test_everything_comes_back_without_the_model(tmp_path: Path) -> None:
     loaded = Solution.load(file)
     assert_same(loaded, original)
     assert loaded.events == original.events
+    np.testing.assert_array_equal(loaded.modes, original.modes)
     assert loaded.statistics.steps == 42 and loaded.options.linear_solver == "dense"
     assert loaded.parameters == {"ball.g": 2.0}
     assert loaded.versions == original.versions
