@@ -203,9 +203,9 @@ def flow_sums(connectors: list[Connector], found: Connections, scope: Scope) -> 
         sets.setdefault(found.find(node), []).append(node)
     for connector in connectors:
         node = Node(first_variable(connector), False)
+        found.connectors[node.connector] = connector
         if node not in found.parent:
             sets[node] = [node]
-            found.connectors[node.connector] = connector
     sums = []
     for nodes in sets.values():
         head = found.connectors[nodes[0].connector]
