@@ -99,6 +99,6 @@ def show(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Non
         table.add_column(head, justify="left" if index == 0 else "right")
     for row in rows:
         table.add_row(*row)
-    console = Console()
+    console = Console(width=110)
     console.print(table)
     console.print(f"{os.cpu_count()} processors, load average {load_average():.2f}")

@@ -16,17 +16,22 @@ import time
 from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from benchmarks.measure import fresh_json, load_average, parser, show
 
+if TYPE_CHECKING:
+    from arthur_acausal import Translation
+    from benchmarks.powertrain_byhand import Array, Flat
+
 STOP_TIME = 1.0  # [s]
 INTERVALS = 1000
+GRID = np.linspace(0.0, STOP_TIME, INTERVALS + 1)
 TOLERANCES = {"1e-4": 1e-4, "1e-6": 1e-6}
 TRANSLATIONS = 3
-RUNS = 7
+RUNS = 5
 EULER_GUESS, RK4_GUESS = 0.4e-6, 4e-6  # [s], where the search for the largest stable step starts
 
 
@@ -37,53 +42,67 @@ def translate_once() -> dict[str, Any]:
     import sksundae.ida  # noqa: F401
 
     from arthur_acausal import translate
-    from arthur_acausal.models.arthur.powertrain import Powertrain
+    from arthur_acausal.models.arthur.demo import Demo
 
     begin = time.perf_counter()
-    translate(Powertrain())
+    translate(Demo())
     return {"translate_s": time.perf_counter() - begin}
 
 
-def race() -> dict[str, Any]:
-    """Run ours and IDAS in turns at each tolerance; return the figures of both by key and tolerance."""
-    from arthur_acausal import translate
-    from arthur_acausal.models.arthur.demo import demo_inputs
-    from arthur_acausal.models.arthur.powertrain import Powertrain
-    from benchmarks.powertrain_byhand import flat, trot
-    from benchmarks.race import REFERENCE_RTOL, Idas, alternate, error, fastest, states_on
+def lap(translation: Translation, equations: Flat, label: str, reference: Array) -> dict[str, Any]:
+    """Race ours against IDAS at one tolerance; return the figures of both."""
+    from arthur_acausal import SolverOptions
+    from benchmarks.race import alternate, error, fastest, states_on
 
-    grid = np.linspace(0.0, STOP_TIME, INTERVALS + 1)
-    equations = flat(trot)
-    translation = translate(Powertrain())
-    inputs = demo_inputs()
-    reference = Idas(equations, grid, REFERENCE_RTOL).run()
-    rows: dict[str, dict[str, Any]] = {}
-    for label, rtol in TOLERANCES.items():
-        ours = partial(translation.simulate, STOP_TIME, rtol=rtol, intervals=INTERVALS, inputs=inputs)
-        solver, idas = fastest(equations, grid, rtol)
-        jit_solver, idas_jit = fastest(equations, grid, rtol, jit=True)
-        mine, theirs, theirs_jit = alternate([ours, idas.run, idas_jit.run], RUNS)
-        solution = ours()
-        statistics = solution.statistics
-        rows[label] = {
-            "simulate_s": mine.best,
-            "simulate_median_s": mine.median,
-            "idas_s": theirs.best,
-            "idas_median_s": theirs.median,
-            "idas_jit_s": theirs_jit.best,
-            "ratio_to_idas": mine.best / theirs.best,
-            "ratio_to_idas_jit": mine.best / theirs_jit.best,
-            "idas_linear_solver": solver,
-            "idas_jit_linear_solver": jit_solver,
-            "us_per_residual": statistics.us_per_residual_call,
-            "steps": statistics.steps,
-            "idas_steps": idas.steps,
-            "residual_calls": statistics.residual_evaluations,
-            "error": asdict(error(states_on(grid, solution, equations.paths), reference, equations.paths)),
-            "idas_error": asdict(error(idas.run(), reference, equations.paths)),
-        }
-    figures: dict[str, Any] = {key: {label: row[key] for label, row in rows.items()} for key in rows["1e-4"]}
-    return {"us_per_residual_call": figures.pop("us_per_residual")["1e-6"], **figures}
+    rtol = TOLERANCES[label]
+    options = SolverOptions(rtol=rtol, intervals=INTERVALS)
+    ours = partial(translation.simulate, STOP_TIME, options=options)
+    solver, idas = fastest(equations, GRID, rtol)
+    jit_solver, idas_jit = fastest(equations, GRID, rtol, jit=True)
+    mine, theirs, theirs_jit = alternate([ours, idas.run, idas_jit.run], RUNS)
+    solution = ours()
+    statistics = solution.statistics
+    mine_off = error(states_on(GRID, solution, equations.paths), reference, equations.paths)
+    theirs_off = error(idas.run(), reference, equations.paths)
+    return {
+        "simulate_s": mine.best,
+        "simulate_median_s": mine.median,
+        "idas_s": theirs.best,
+        "idas_median_s": theirs.median,
+        "idas_jit_s": theirs_jit.best,
+        "ratio_to_idas": mine.best / theirs.best,
+        "ratio_to_idas_jit": mine.best / theirs_jit.best,
+        "idas_linear_solver": solver,
+        "idas_jit_linear_solver": jit_solver,
+        "us_per_residual": statistics.us_per_residual_call,
+        "steps": statistics.steps,
+        "idas_steps": idas.steps,
+        "residual_calls": statistics.residual_evaluations,
+        "error": asdict(mine_off),
+        "idas_error": asdict(theirs_off),
+        "error_ratio": mine_off.rms / theirs_off.rms,
+    }
+
+
+def race() -> dict[str, Any]:
+    """Race the demo with its energy audit, and without; return each figure by tolerance."""
+    from arthur_acausal import translate
+    from arthur_acausal.models.arthur.demo import Demo
+    from benchmarks.powertrain_byhand import flat, trot
+    from benchmarks.race import REFERENCE_RTOL, Idas
+
+    figures: dict[str, Any] = {}
+    for audit in (True, False):
+        equations = flat(trot, audit=audit)
+        translation = translate(Demo(audit=audit))
+        reference = Idas(equations, GRID, REFERENCE_RTOL).run()
+        laps = {label: lap(translation, equations, label, reference) for label in TOLERANCES}
+        by_key = {key: {label: row[key] for label, row in laps.items()} for key in laps["1e-4"]}
+        if audit:
+            figures |= {"us_per_residual_call": by_key.pop("us_per_residual")["1e-6"], **by_key}
+        else:
+            figures["without_audit"] = by_key
+    return figures
 
 
 def explicit() -> dict[str, Any]:
@@ -93,16 +112,17 @@ def explicit() -> dict[str, Any]:
     from benchmarks.race import Idas
 
     equations = flat(trot)
-    grid = np.linspace(0.0, STOP_TIME, INTERVALS + 1)
-    reference = Idas(equations, grid, 1e-9).run()
+    reference = Idas(equations, GRID, 1e-9).run()
     with compiled(equations, reference[:, -1], np.ptp(reference, axis=1), STOP_TIME) as program:
         euler = largest_stable(program, "euler", EULER_GUESS)
         rk4 = largest_stable(program, "rk4", RK4_GUESS)
     return {
         "euler_s": euler.wall_s,
         "euler_step_s": euler.step_s,
+        "euler_error": euler.error,
         "rk4_s": rk4.wall_s,
         "rk4_step_s": rk4.step_s,
+        "rk4_error": rk4.error,
     }
 
 
@@ -116,7 +136,8 @@ PARTS: dict[str, Callable[[], dict[str, Any]]] = {
 def translation_times() -> dict[str, Any]:
     """Return the best of several translations, cache empty and filled, each in a new process [s]."""
     command = ["-m", "benchmarks.powertrain", "--part", "translate"]
-    cold, cached = [], []
+    cold: list[float] = []
+    cached: list[float] = []
     for _ in range(TRANSLATIONS):
         with tempfile.TemporaryDirectory() as cache:
             for times in (cold, cached):
@@ -140,7 +161,7 @@ def measure() -> dict[str, Any]:
 
 
 def race_rows(figures: dict[str, Any]) -> list[list[str]]:
-    """Return the table of the race: ours, and IDAS by hand, at each tolerance."""
+    """Return the table of one race: ours, and IDAS by hand, at each tolerance."""
     rows = []
     for label in TOLERANCES:
         for who, seconds, prefix in (("ours", "simulate_s", ""), ("idas by hand", "idas_s", "idas_")):
@@ -164,24 +185,28 @@ def report(figures: dict[str, Any]) -> None:
             ["cached", f"{figures['translate_cached_s']:.2f}", "0.3"],
         ],
     )
-    heads = ["who, rtol", "ms", "steps", "worst error / range", "of", "rms"]
-    show("One simulated second, best of 7", heads, race_rows(figures))
-    for label in TOLERANCES:
-        ratio, compiled = figures["ratio_to_idas"][label], figures["ratio_to_idas_jit"][label]
-        print(
-            f"rtol {label}: {ratio:.2f} times idas (required 3), {compiled:.2f} times idas compiled; "
-            f"solvers {figures['idas_linear_solver'][label]}, {figures['idas_jit_linear_solver'][label]}"
-        )
+    heads = ["who, rtol", "ms", "steps", "worst error/range", "of", "rms"]
+    for title, race in (("energy audit included", figures), ("without audit", figures["without_audit"])):
+        show(f"One simulated second, {title}; best of {RUNS}", heads, race_rows(race))
+        for label in TOLERANCES:
+            ratio, compiled = race["ratio_to_idas"][label], race["ratio_to_idas_jit"][label]
+            print(
+                f"rtol {label}: {ratio:.2f} times idas (required 3), {compiled:.2f} times idas compiled, "
+                f"rms error {race['error_ratio'][label]:.2f} times theirs (required 2)"
+            )
     print(f"{figures['us_per_residual_call']:.1f} us a residual call, all that IDA does included")
     for name, key in (("explicit Euler", "euler"), ("Runge-Kutta 4", "rk4")):
         if figures[f"{key}_s"] is not None:
-            step = 1e6 * figures[f"{key}_step_s"]
-            print(f"{name} in C: {figures[f'{key}_s']:.2f} s at its largest stable step of {step:.2f} us")
+            step, error = 1e6 * figures[f"{key}_step_s"], figures[f"{key}_error"]
+            seconds = figures[f"{key}_s"]
+            print(
+                f"{name} in C: {seconds:.2f} s at its largest stable step of {step:.2f} us, error {error:.0e}"
+            )
 
 
 def main() -> None:
     """Measure and print."""
-    command_line = parser(__doc__.partition("\n")[0])
+    command_line = parser("The powertrain: translation, one simulated second, and other ways to it.")
     command_line.add_argument("--part", choices=sorted(PARTS), help="one part, in this process, as JSON")
     arguments = command_line.parse_args()
     if arguments.part:

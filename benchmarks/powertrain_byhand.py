@@ -161,7 +161,8 @@ def flat(inputs: Inputs, audit: bool = False) -> Flat:
     energies = SX.sym("energies", len(powers) if audit else 0)
     metered = casadi.vertcat(*powers.values()) if audit else SX(0, 1)
     zeros, ones, none = np.zeros(N), np.ones(N), np.ones(energies.numel())
-    typical = [[500, 1e7], 0.1 * ones, 0.01 * ones, np.full(2 * N, 1e7), [0.1, 0.01, 1e7], 100 * none]
+    piston, chambers = [0.1 * ones, 0.01 * ones], [np.full(2 * N, 1e7)]
+    typical = [np.array([500, 1e7]), *piston, *chambers, np.array([0.1, 0.01, 1e7]), 100 * none]
     return Flat(
         t=t,
         x=casadi.vertcat(w, p_d, v, y, p_A, p_B, v_r, z, p_R, energies),

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tests.parity.listings import Array, Constants, initial_state, pump_scaling, right_hand_side
 from tests.parity.reference import radau, stored
 
 
-def eigenvalues(state: Array) -> Array:
+def eigenvalues(state: Array) -> NDArray[np.complex128]:
     """Eigenvalues [1/s] of the 54 rates about a state, valves closed, by central differences."""
     scale = np.where(np.abs(state) > 1e3, 10.0, 1e-6)
     steps = np.diag(scale)
     zero = np.zeros((12, 1))
     up, down = (right_hand_side(state[:, None] + s * steps, 0.0, zero, zero, Constants()) for s in (1, -1))
-    return np.linalg.eigvals((up - down) / (2 * scale))
+    return np.linalg.eigvals((up - down) / (2 * scale)).astype(np.complex128)
 
 
 def test_pump_scaling_at_1_gpm_and_5000_rpm() -> None:
