@@ -1,0 +1,121 @@
+"""Running the documents: Python blocks in one namespace a page, `arthur` commands in the same folder.
+
+A block ``python`` is run; what it prints stands in a block ``text`` directly below. ``python raises``: it must end
+with an error of Arthur, whose class and text are then the output. ``python file=NAME``: it is written to that file
+first. ``python norun`` is not run. In a block ``console`` each ``$ arthur ...`` is run; other commands are not.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+import shlex
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from typer.testing import CliRunner
+
+from arthur_acausal import ArthurError
+from arthur_acausal.cli.app import app
+from tests.docs.markdown import Block
+
+PROMPT = re.compile(r"^\$ (.*(?:\\\n.*)*)\n", re.MULTILINE)  # a backslash at the end continues the command
+FAILURE = re.compile(r"^(error: |Usage: )", re.MULTILINE)
+
+
+@dataclass(frozen=True, slots=True)
+class Ran:
+    """What one block or command printed, and what the page says that it prints.
+
+    Attributes
+    ----------
+    line : where the output, or what makes it, stands in the page.
+    what : the command, or the first line of the block.
+    said : None where the page shows no output.
+    start, end : where ``said`` stands in the page; equal where it is None.
+    """
+
+    line: int
+    what: str
+    said: str | None
+    printed: str
+    start: int
+    end: int
+
+
+def run_page(page: list[Block], folder: Path) -> Iterator[Ran]:
+    """Run a page's blocks in order; the current folder must be ``folder``.
+
+    Raises
+    ------
+    AssertionError
+        Where a block raises that should not, or the other way round, or a command's exit status is wrong.
+    """
+    namespace: dict[str, Any] = {"__name__": "page"}
+    known = set(sys.modules)
+    sys.path.insert(0, str(folder))  # as for a script in the folder
+    try:
+        yield from run_blocks(page, namespace, folder)
+    finally:
+        sys.path[:] = [entry for entry in sys.path if Path(entry).resolve() != folder.resolve()]
+        for name in set(sys.modules) - known:  # another page may have files of the same names
+            if (getattr(sys.modules[name], "__file__", None) or "").startswith(str(folder)):
+                del sys.modules[name]
+
+
+def run_blocks(page: list[Block], namespace: dict[str, Any], folder: Path) -> Iterator[Ran]:
+    """Run the blocks one after the other."""
+    for block, following in zip(page, [*page[1:], None], strict=True):
+        if block.kind == "python" and "norun" not in block.words:
+            printed = run_python(block, namespace, folder)
+            output = following if following and following.kind == "text" and following.adjacent else None
+            what = block.text.partition("\n")[0]
+            if output is None:
+                yield Ran(block.line, what, None, printed, block.end, block.end)
+            else:
+                yield Ran(output.line, what, output.text, printed, output.start, output.end)
+        elif block.kind == "console":
+            yield from run_commands(block)
+
+
+def run_python(block: Block, namespace: dict[str, Any], folder: Path) -> str:
+    """Run a block; return what it printed, and the error where one is expected."""
+    name = block.option("file")
+    if name:
+        (folder / name).write_text(block.text, encoding="utf-8")
+    code = compile(block.text, name or "page.py", "exec")
+    printed = io.StringIO()
+    error: Exception | None = None
+    with contextlib.redirect_stdout(printed):
+        try:
+            exec(code, namespace)
+        except ArthurError as raised:
+            error = raised
+    if "raises" in block.words:
+        assert error is not None, f"line {block.line}: the block should raise an error"
+        printed.write(f"{type(error).__name__}: {error}\n")
+    elif error is not None:
+        raise AssertionError(f"line {block.line}: {type(error).__name__}: {error}") from error
+    return printed.getvalue()
+
+
+def run_commands(block: Block) -> Iterator[Ran]:
+    """Run the `arthur` commands of a console block."""
+    found = list(PROMPT.finditer(block.text))
+    for match, following in zip(found, [*found[1:], None], strict=True):
+        command = match[1].replace("\\\n", " ")
+        end = following.start() if following else len(block.text)
+        said = block.text[match.end() : end]
+        if not command.startswith("arthur "):
+            continue
+        result = CliRunner().invoke(app, shlex.split(command)[1:], prog_name="arthur")
+        if result.exception is not None and not isinstance(result.exception, SystemExit):
+            raise result.exception
+        line = block.line + block.text.count("\n", 0, match.end())
+        expected = bool(FAILURE.search(said)) and "--help" not in command
+        assert bool(result.exit_code) == expected, f"line {line}: {command}\n{result.output}"
+        yield Ran(line, command, said, result.output, block.start + match.end(), block.start + end)
