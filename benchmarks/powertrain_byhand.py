@@ -22,8 +22,9 @@ from arthur_acausal.models.arthur.demo import (
     STRIDES,
     VOLTAGE,
     joint_of,
-    ramped_sine,
+    load,
     rise,
+    stroke,
 )
 
 Array = NDArray[np.float64]
@@ -131,8 +132,8 @@ def reservoir(v: SX, z: SX, p: SX, q: SX) -> tuple[SX, SX, Powers]:
 def trot(t: SX) -> tuple[SX, SX, SX]:
     """The demo's inputs: motor voltage [V], currents [A] and load forces [N] at t [s]."""
     joints = [joint_of(i) for i in range(N)]
-    currents = [ramped_sine(t, joint.current, 0.0, STRIDES, phase, RISE) for joint, phase in joints]
-    forces = [ramped_sine(t, joint.force, joint.force, STRIDES, phase, RISE) for joint, phase in joints]
+    currents = [stroke(t, joint.current, STRIDES, phase, RISE) for joint, phase in joints]
+    forces = [load(t, joint.force, STRIDES, phase, RISE) for joint, phase in joints]
     return rise(t, VOLTAGE, RISE_OF_VOLTAGE), casadi.vertcat(*currents), casadi.vertcat(*forces)
 
 

@@ -17,11 +17,13 @@ from arthur_acausal.models.arthur.powertrain import Powertrain
 Number = TypeVar("Number", float, SX)
 
 VOLTAGE = 41.0
-"""Of the motor [V]: about 5070 rpm, with the relief valve open most of the time."""
+"""Of the motor [V]: about 5070 rpm; the pump then gives more than the legs take, and the relief valve stays open."""
 RISE_OF_VOLTAGE, RISE = 0.02, 0.15
-"""Time constants [s] with which the voltage, and currents and forces, are brought up."""
-STRIDES = 2.0
-"""Strides a second [Hz]."""
+"""Time constants [s] with which the voltage, and currents and loads, are brought up."""
+STRIDES = 1.6
+"""Strides a second [Hz]: 0.25 s of swing and 0.375 s of stance."""
+HOLD = 5.34
+"""The load [N] that holds a piston at rest with 3 bar in both chambers, 3e5 Pa (A_A - A_B)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +35,8 @@ class Joint:
     phase: float
 
 
-JOINTS = (Joint(0.015, 50.0, pi / 2), Joint(0.04, 120.0, 0.0), Joint(0.045, 170.0, pi / 2))
-"""Abduction, hip and knee. Loads swing from 0 to twice ``force`` in phase with the current: they resist."""
+JOINTS = (Joint(0.0165, 50.0, pi / 2), Joint(0.044, 120.0, 0.0), Joint(0.0495, 170.0, pi / 2))
+"""Abduction, hip and knee. Loads swing from ``HOLD`` to twice ``force`` more in phase with the current: they resist."""
 LEG_PHASE = (0.0, pi, pi, 0.0)
 """Front left, front right, hind left, hind right [rad]: a trot moves diagonal legs together."""
 
@@ -44,16 +46,19 @@ def rise(t: Number, amplitude: float | Number, T: float | Number) -> Number:
     return amplitude * (1 - exp(-t / T))
 
 
-def ramped_sine(
-    t: Number,
-    amplitude: float | Number,
-    offset: float | Number,
-    f: float | Number,
-    phase: float | Number,
-    T: float | Number,
-) -> Number:
-    """Return offset + amplitude sin(2 pi f t + phase), brought up smoothly within about ``T`` [s]."""
-    return (1 - exp(-((t / T) ** 2))) * (offset + amplitude * sin(2 * pi * f * t + phase))
+def ramp(t: Number, T: float | Number) -> Number:
+    """Return a level that is brought up from 0 to 1, smoothly, within about 2 ``T`` [s]."""
+    return 1 - exp(-((t / T) ** 2))
+
+
+def stroke(t: Number, amplitude: float, f: float, phase: float, T: float) -> Number:
+    """Return amplitude sin^3(2 pi f t + phase), ramped up: the piston comes to rest where it turns, as a foot does."""
+    return ramp(t, T) * amplitude * sin(2 * pi * f * t + phase) ** 3
+
+
+def load(t: Number, force: float, f: float, phase: float, T: float) -> Number:
+    """Return HOLD + force (1 + sin(2 pi f t + phase)), the second part ramped up [N]."""
+    return HOLD + ramp(t, T) * force * (1 + sin(2 * pi * f * t + phase))
 
 
 class Rise(Source):
@@ -67,18 +72,33 @@ class Rise(Source):
         yield self.y == rise(time(), self.amplitude, self.T)
 
 
-class RampedSine(Source):
-    """y = offset + amplitude sin(2 pi f t + phase), brought up as 1 - exp(-(t/T)^2)."""
+class Stroke(Source):
+    """y = amplitude sin^3(2 pi f t + phase), brought up as 1 - exp(-(t/T)^2)."""
 
-    _units = {"y": "{y}", "amplitude": "{y}", "offset": "{y}"}
+    _units = {"y": "{y}", "amplitude": "{y}"}
     amplitude: Real = parameter("1")
-    offset: Real = parameter("1", default=0.0)
     f: Real = parameter("Hz", default=STRIDES)
     phase: Real = parameter("rad", default=0.0)
     T: Real = parameter("s", default=RISE, min=0.0)
 
     def equations(self) -> Equations:
-        yield self.y == ramped_sine(time(), self.amplitude, self.offset, self.f, self.phase, self.T)
+        turn = sin(2 * pi * self.f * time() + self.phase)
+        yield self.y == ramp(time(), self.T) * self.amplitude * turn**3
+
+
+class Load(Source):
+    """y = hold + amplitude (1 + sin(2 pi f t + phase)), the second part brought up as 1 - exp(-(t/T)^2)."""
+
+    _units = {"y": "{y}", "amplitude": "{y}", "hold": "{y}"}
+    amplitude: Real = parameter("1")
+    hold: Real = parameter("1", default=HOLD)
+    f: Real = parameter("Hz", default=STRIDES)
+    phase: Real = parameter("rad", default=0.0)
+    T: Real = parameter("s", default=RISE, min=0.0)
+
+    def equations(self) -> Equations:
+        swing = 1 + sin(2 * pi * self.f * time() + self.phase)
+        yield self.y == self.hold + ramp(time(), self.T) * self.amplitude * swing
 
 
 def joint_of(i: int) -> tuple[Joint, float]:
@@ -90,19 +110,18 @@ def joint_of(i: int) -> tuple[Joint, float]:
 class Demo(Powertrain):
     """The powertrain driven by 41 V and twelve trot-like current profiles against swinging loads.
 
-    Diagonal legs move together at 2 strides a second; pistons reach 0.05 (abduction) to 0.14 m/s (knee)
-    within +-22 mm. It starts as Table 5 says: at rest, 3 bar everywhere.
+    Diagonal legs move together at 1.6 strides a second; pistons reach 0.05 (abduction) to 0.15 m/s (knee)
+    within +-20 mm and come to rest where they turn. It starts as Table 5 says, at rest with 3 bar everywhere,
+    each piston held by its load.
     """
 
     def build(self) -> None:
         super().build()
         self.voltage = Rise.of("V")(amplitude=VOLTAGE, T=RISE_OF_VOLTAGE)
         joints = [joint_of(i) for i in range(self.n)]
-        current, force = RampedSine.of("A"), RampedSine.of("N")
+        current, force = Stroke.of("A"), Load.of("N")
         self.currents = [current(amplitude=joint.current, phase=phase) for joint, phase in joints]
-        self.forces = [
-            force(amplitude=joint.force, offset=joint.force, phase=phase) for joint, phase in joints
-        ]
+        self.forces = [force(amplitude=joint.force, phase=phase) for joint, phase in joints]
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -121,6 +140,6 @@ def demo_inputs(n: int = 12) -> dict[str, Callable[[float], float]]:
     for i in range(n):
         joint, phase = joint_of(i)
         common = {"f": STRIDES, "phase": phase, "T": RISE}
-        inputs[f"valves[{i}].I"] = partial(ramped_sine, amplitude=joint.current, offset=0.0, **common)
-        inputs[f"loads[{i}].F"] = partial(ramped_sine, amplitude=joint.force, offset=joint.force, **common)
+        inputs[f"valves[{i}].I"] = partial(stroke, amplitude=joint.current, **common)
+        inputs[f"loads[{i}].F"] = partial(load, force=joint.force, **common)
     return inputs
