@@ -12,13 +12,32 @@ from arthur_acausal.cli.failure import reported
 
 app = typer.Typer(
     name="arthur",
-    help="Simulate acausal, equation-based models: hydraulics, mechanics, control.",
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,  # plain help: importing rich costs more than all the rest
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
+
+
+def show_version(wanted: bool) -> None:
+    """Print the version and end."""
+    if wanted:
+        from arthur_acausal import __version__
+
+        typer.echo(f"arthur {__version__}")
+        raise typer.Exit
+
+
+Version = Annotated[
+    bool, typer.Option("--version", callback=show_version, is_eager=True, help="Show the version and exit.")
+]
+
+
+@app.callback()
+def arthur(version: Version = False) -> None:
+    """Simulate acausal, equation-based models: hydraulics, mechanics, control."""
+
 
 Model = Annotated[
     str, typer.Argument(metavar="MODEL", help="arthur.powertrain, package.module:Class or file.py:Class")
@@ -31,7 +50,6 @@ Set = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Debug = Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")]
-NO_OPTIONS: list[str] = []
 
 
 @app.command("list")

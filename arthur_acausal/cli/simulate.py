@@ -14,7 +14,7 @@ from arthur_acausal.cli import outcome, progress
 from arthur_acausal.cli.failure import note
 from arthur_acausal.cli.locate import build_model
 from arthur_acausal.cli.settings import assignments, quantity, read_inputs
-from arthur_acausal.errors import SimulationError, UsageError
+from arthur_acausal.errors import ArthurError, SimulationError, UsageError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -51,11 +51,15 @@ def simulate(request: Request) -> None:
     Raises ArthurError or KeyboardInterrupt after what was computed up to there has been written.
     """
     from arthur_acausal.api import translate
+    from arthur_acausal.result.atomic import check_place
     from arthur_acausal.result.plot import check_format
     from arthur_acausal.result.simulated import Interrupted
 
     if request.picture is not None:
-        check_format(request.picture)  # before the run, not after it
+        check_format(request.picture)
+    for file in (request.output, request.picture):
+        if file is not None:
+            check_place(file)  # before the run, not after it
     model, parameters = build_model(request.model, request.settings)
     translation = translate(model, name=request.model if is_short(request.model) else "")
     try:
@@ -64,7 +68,12 @@ def simulate(request: Request) -> None:
         if stopped.solution is not None:
             keep_part(request, translation, stopped.solution)
         raise
-    written = keep(request, translation, solution)
+    try:
+        written = keep(request, translation, solution)
+    except ArthurError:
+        if not request.as_json:
+            tell(request, translation, solution, [])  # a full disk should not cost the run
+        raise
     tell(request, translation, solution, written)
 
 

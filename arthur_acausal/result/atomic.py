@@ -15,10 +15,7 @@ def write_atomically(file: str | os.PathLike[str], content: bytes) -> None:
 
     Raises ResultError where that fails; what stood there before is then as it was.
     """
-    path = Path(os.path.realpath(file))  # through a link: the file that it means
-    if path.exists() and not path.is_file():
-        what = "a folder" if path.is_dir() else "not a regular file"
-        raise ResultError(f"cannot write {file}", cause=f"it is {what}", remedy="name a file")
+    path = check_place(file)
     temporary = path.with_name(f".{path.name[:100]}.{secrets.token_hex(6)}.part")
     try:
         with open(temporary, "xb") as stream:
@@ -37,3 +34,19 @@ def write_atomically(file: str | os.PathLike[str], content: bytes) -> None:
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()
+
+
+def check_place(file: str | os.PathLike[str]) -> Path:
+    """Return where a file would be written, through a link: the file that it means.
+
+    Raises ResultError where it cannot be a file: a folder, a device, or in a folder that is none.
+    """
+    path = Path(os.path.realpath(file))
+    if path.exists() and not path.is_file():
+        what = "a folder" if path.is_dir() else "not a regular file"
+        raise ResultError(f"cannot write {file}", cause=f"it is {what}", remedy="name a file")
+    if not path.parent.is_dir():
+        raise ResultError(
+            f"cannot write {file}", cause=f"there is no folder {path.parent}", remedy="make it first"
+        )
+    return path

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,8 @@ ROOT = Path(__file__).parents[2]
 
 BALL = '''
 """A file with two models and other things."""
+
+from casadi import sqrt
 
 from arthur_acausal import (
     Component, Equations, Real, der, discrete, parameter, pre, real_input, reinit, variable, when,
@@ -40,13 +43,14 @@ class Ball(Component):
         yield when(self.h <= 0, reinit(self.v, -self.e * pre(self.v)), self.bounces == pre(self.bounces) + 1)
 
 
-class Blowup(Component):
-    """Its solution ends at t = 1 s: x' = x^2, x(0) = 1."""
+class Collapse(Component):
+    """Its solution x = (1 - 1.5 t)^(2/3) ends at t = 2/3 s with an infinite slope."""
 
+    rate: Real = parameter("1/s", default=1.0)
     x: Real = variable("1", start=1.0, fixed=True)
 
     def equations(self) -> Equations:
-        yield "growth", der(self.x) == self.x**2
+        yield "decay", der(self.x) == -self.rate / sqrt(self.x)
 
 
 class Slow(Component):
@@ -92,12 +96,24 @@ def arthur() -> Callable[..., Result]:
     return run
 
 
-def start(*arguments: object) -> subprocess.Popen[str]:
-    """The command in a process of its own."""
-    return subprocess.Popen(
+@contextmanager
+def process(*arguments: object, stderr: int = subprocess.PIPE) -> Iterator[subprocess.Popen[bytes]]:
+    """The command in a process of its own, which ends with the block."""
+    with subprocess.Popen(
         [sys.executable, "-m", "arthur_acausal", *map(str, arguments)],
         stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-    )
+        stderr=stderr,
+        env=os.environ | {"PYTHONPATH": str(ROOT), "TERM": "xterm"},
+    ) as running:
+        try:
+            yield running
+        finally:
+            if running.poll() is None:
+                running.kill()
+
+
+def run(*arguments: object) -> tuple[int, str, str]:
+    """Exit status, standard output and standard error of the command in a process of its own."""
+    with process(*arguments) as running:
+        out, err = running.communicate(timeout=120)
+    return running.returncode, out.decode(), err.decode()

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-import resource
 import stat
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +18,7 @@ from arthur_acausal.result.run import Run
 from arthur_acausal.result.solution import Solution
 from arthur_acausal.result.store import to_bytes
 from arthur_acausal.result.variable import Variable
-from tests.result.sample import Table, bounce, bounce_run
+from tests.result.sample import Table, bounce, bounce_run, disk_of
 
 NAMES = st.from_regex(r"[a-zα-ω_][a-z0-9_]{0,5}(\[[0-9]{1,3}\])?", fullmatch=True)
 PATHS = st.lists(NAMES, min_size=1, max_size=4).map(".".join)
@@ -109,17 +106,6 @@ def test_numbers_that_json_lacks_are_written_as_text(tmp_path: Path) -> None:
 
 
 # --- writing when it cannot be
-
-
-@contextmanager
-def disk_of(size: int) -> Iterator[None]:
-    """Let no file grow beyond ``size`` bytes, as on a full disk."""
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
 def test_a_full_disk_leaves_the_old_file_and_no_scraps(tmp_path: Path) -> None:
