@@ -21,9 +21,9 @@ from benchmarks.powertrain_byhand import Flat
 
 Array = NDArray[np.float64]
 LOOP = Path(__file__).with_name("explicit.c")
-# An end state further off than this part of a variable's range counts as unstable. Less would rule out steps at
-# which the weakly damped reservoir merely rings on; more would let the relief valve chatter in bounds.
-UNSTABLE = 0.1
+# An end state further off than this part of a variable's range counts as unstable: less would rule out steps at
+# which the weakly damped reservoir merely rings on, more would let the relief valve chatter in bounds.
+UNSTABLE = 0.02
 
 
 @dataclass(frozen=True, slots=True)

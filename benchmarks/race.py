@@ -66,11 +66,11 @@ class Idas:
         return int(self._integrator.stats()["nsteps"])
 
 
-def fastest(flat: Flat, grid: Array, rtol: float, jit: bool = False) -> tuple[str, Idas]:
+def fastest(flat: Flat, grid: Array, rtol: float) -> tuple[str, Idas]:
     """Return the linear solver, and the integrator with it, that is quickest at this tolerance."""
     tried = {}
     for solver in SOLVERS:
-        integrator = Idas(flat, grid, rtol, solver, jit)
+        integrator = Idas(flat, grid, rtol, solver)
         tried[solver] = (repeat(integrator.run, 2).best, integrator)
     best = min(tried, key=lambda solver: tried[solver][0])
     return best, tried[best][1]
