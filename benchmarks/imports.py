@@ -2,8 +2,7 @@
 
     python -m benchmarks.imports [--json]
 
-The bare interpreter's start is measured too: it is part of both figures on the command line, and is taken
-off the import's.
+Both figures hold the start of the interpreter itself, which is measured besides.
 """
 
 from __future__ import annotations
