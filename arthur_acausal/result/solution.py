@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from arthur_acausal.result.panel import Wanted
 
 
+AT_ONCE = 4_000_000  # values that may be computed beside those that are asked for: 32 MB
+
+
 class Values(Protocol):
     """Where a solution's values come from: a trajectory and its model, or a file."""
 
@@ -120,12 +123,21 @@ class Solution:
         return block
 
     def _fetch(self, paths: list[str]) -> None:
-        wanted = list(dict.fromkeys(paths))
+        wanted = list(dict.fromkeys([*paths, *self._companions(paths)]))
         block = self._values.observe(wanted)
         for index, path in enumerate(wanted):
             column = np.array(block[:, index], dtype=np.float64)
             column.flags.writeable = False  # it is handed out again and again
             self._columns[path] = column
+
+    def _companions(self, paths: list[str]) -> list[str]:
+        """Return what costs nothing beside these: one eliminated variable is computed together with all."""
+        if not any(self.variables[path].kind == "eliminated" for path in paths):
+            return []
+        others = [
+            v.path for v in self.variables.values() if v.kind == "eliminated" and v.path not in self._columns
+        ]
+        return others if len(others) * self.t.size <= AT_ONCE else []
 
     def at(self, time: ArrayLike, path: str, side: Side = "right") -> FloatArray:
         """Values at any times within the solution, shape of ``time``.

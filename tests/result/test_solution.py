@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -21,6 +23,17 @@ def test_values_are_lazy_cached_and_read_only() -> None:
     assert values.asked == ["ball.h"]
     with pytest.raises(ValueError, match="read-only"):
         height[0] = 7.0
+
+
+def test_eliminated_variables_are_computed_together() -> None:
+    values = bounce_values()
+    values.variables = {
+        p: replace(v, kind="eliminated") if ".I" in p else v for p, v in values.variables.items()
+    }
+    solution = Solution(values)
+    _ = solution["valves[1].I"], solution["valves[0].I"]
+    assert values.asked == ["valves[1].I", "valves[0].I"]
+    np.testing.assert_array_equal(solution["valves[0].I"], bounce()["valves[0].I"])
 
 
 def test_every_kind_of_variable_has_one_value_a_time() -> None:
