@@ -172,8 +172,7 @@ def reinit_target(dae: StructuredDAE, variable: int, y_place: dict[int, int], te
     ref = dae.nodes.of_variable(variable)
     if ref.kind != "node" or ref.number not in y_place or ref.number not in set(dae.causal.states):
         raise StructureError(
-            f"reinit({dae.flat.variables[variable].path}): it is no state of the system",
-            equation=text,
+            f"{text}: reinit({dae.flat.variables[variable].path}), but it is no state of the system",
             remedy='reinitialise a state that it depends on, or declare it with state_select="always"',
         )
     return y_place[ref.number], ref.sign

@@ -171,7 +171,7 @@ def _whens(
             whens.append(WhenClause(label or "when", clause.where))
             conditions.append(dae.evaluator(_row(dae, clause.condition, item), look))
         for assignment in clause.assignments:
-            text = f"{label} ({assignment.where})"
+            text = f"{label} ({assignment.where})".lstrip()
             value = dae.evaluator(_row(dae, assignment.value, item), look)
             target = assignment.target
             if target is None:
@@ -339,5 +339,11 @@ def _recovery(dae: StructuredDAE, assembly: Assembly, y_place: dict[int, int]) -
             units.append(f"{dae.flat.variables[variable].quantity.unit}/s^{order}")
             displays.append(None)
             descriptions.append("")
-    function = ca.Function("observed", assembly.arguments.continuous(), [_column(observed)])
-    return Recovery(paths, sources, units, displays, descriptions, function)
+    a, n_states = assembly.arguments, len(dae.causal.states)
+    column = _column(observed)
+    function = ca.Function("observed", a.continuous(), [column])
+    loose = ca.vertcat(a.yp, a.y[n_states:])
+    interpolated = (
+        ca.which_depends(column, loose, 1, True) if loose.numel() and observed else [False] * len(observed)
+    )
+    return Recovery(paths, sources, units, displays, descriptions, function, as_bools(interpolated), n_states)

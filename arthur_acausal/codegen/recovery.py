@@ -30,7 +30,9 @@ class Source:
 class Recovery:
     """``observe`` gives any variable or parameter of the model by its path.
 
-    ``observed``: CasADi function of (t, y, yp, p, u, z, m) with the eliminated variables as one column.
+    ``observed``: CasADi function of (t, y, yp, p, u, z, m) with the eliminated variables as one column;
+    ``interpolated``: which of them depend on y' or on algebraic unknowns, which the integrator only interpolates;
+    ``n_states``: y from here on is algebraic.
     """
 
     paths: list[str]
@@ -39,6 +41,8 @@ class Recovery:
     displays: list[str | None]
     descriptions: list[str]
     observed: ca.Function = field(repr=False)
+    interpolated: NDArray[np.bool_] = field(repr=False)
+    n_states: int
 
     @cached_property
     def number(self) -> dict[str, int]:
@@ -50,6 +54,16 @@ class Recovery:
         if path not in self.number:
             raise ResultError(f"there is no variable {path!r}", remedy=nearest(path, self.paths))
         return self.number[path]
+
+    def needs_refinement(self, paths: Sequence[str]) -> bool:
+        """Tell whether a variable is more than a function of states, inputs, discretes and parameters."""
+        for path in paths:
+            source = self.sources[self.find(path)]
+            if source.kind == "yp" or (source.kind == "y" and source.index >= self.n_states):
+                return True
+            if source.kind == "observed" and self.interpolated[source.index]:
+                return True
+        return False
 
     def observe(
         self,
@@ -65,7 +79,7 @@ class Recovery:
         """Return the values (nt, len(paths)) of the named variables; rows of the arguments are times."""
         sources = [self.sources[self.find(path)] for path in paths]
         wanted = sorted({s.index for s in sources if s.kind == "observed"})
-        observed = self._evaluate(wanted, t, y, yp, p, u, z, m)
+        observed = self.evaluate(wanted, t, y, yp, p, u, z, m)
         column = {index: k for k, index in enumerate(wanted)}
         tables = {"y": y, "yp": yp, "u": u, "z": z}
         result = np.zeros((len(t), len(paths)))
@@ -79,7 +93,7 @@ class Recovery:
                 result[:, k] = sign * tables[kind][:, index]
         return result
 
-    def _evaluate(
+    def evaluate(
         self,
         wanted: list[int],
         t: FloatArray,
@@ -90,6 +104,7 @@ class Recovery:
         z: FloatArray,
         m: FloatArray,
     ) -> FloatArray:
+        """Return the eliminated variables (nt, len(wanted)) of the given numbers."""
         out = np.zeros((len(t), len(wanted)))
         if not wanted or not len(t):
             return out

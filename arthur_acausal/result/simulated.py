@@ -8,6 +8,7 @@ from typing import Any
 
 from arthur_acausal.codegen.compiled import CompiledDAE
 from arthur_acausal.codegen.recovery import Source
+from arthur_acausal.codegen.refine import Rows, refine
 from arthur_acausal.result.interpolate import FloatArray
 from arthur_acausal.result.run import Run
 from arthur_acausal.result.solution import Solution
@@ -32,8 +33,10 @@ class ComputedValues:
     """Values out of a trajectory, by what the translation recorded of every variable; see `Values`."""
 
     def __init__(self, dae: CompiledDAE, trajectory: Trajectory) -> None:
+        self._dae = dae
         self._recovery = dae.recovery
         self._trajectory = trajectory
+        self._refined: tuple[FloatArray, FloatArray] | None = None
         self._states = {path: k for k, path in enumerate(dae.y_paths) if dae.differential[k]}
         self.t: FloatArray = trajectory.t
         self.modes: FloatArray = trajectory.m
@@ -42,7 +45,15 @@ class ComputedValues:
     def observe(self, paths: Sequence[str]) -> FloatArray:
         """Values (nt, len(paths)) in SI."""
         x = self._trajectory
-        return self._recovery.observe(paths, x.t, x.y, x.yp, x.p, x.u, x.z, x.m)
+        y, yp = self._consistent() if self._recovery.needs_refinement(paths) else (x.y, x.yp)
+        return self._recovery.observe(paths, x.t, y, yp, x.p, x.u, x.z, x.m)
+
+    def _consistent(self) -> tuple[FloatArray, FloatArray]:
+        """Return y and y', algebraic unknowns and derivatives solved anew from the states; once."""
+        if self._refined is None:
+            x = self._trajectory
+            self._refined = refine(self._dae, Rows(x.t, x.y, x.yp, x.p, x.u, x.z, x.m))
+        return self._refined
 
     def slope(self, state: str) -> FloatArray | None:
         """dx/dt (nt,) of a state as the integrator has it."""

@@ -18,6 +18,8 @@ from arthur_acausal.transform.structured import StructuredDAE
 FloatArray = NDArray[np.float64]
 
 LISTED = 10  # the worst equations that a verification keeps
+BATCH = 2_000_000  # values evaluated at once
+TINY = float(np.finfo(float).tiny)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +63,7 @@ def verify(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> V
     found = [r for expression, group in groups.items() for r in _group(expression, group, values, t)]
     for alias in flat.aliases:
         a, b = values(Atom("variable", alias.i)), values(Atom("variable", alias.j))
-        scale = max(float(np.max(np.abs(a))), float(np.max(np.abs(b))), np.finfo(float).tiny)
+        scale = max(float(np.max(np.abs(a))), float(np.max(np.abs(b))), TINY)
         worst = int(np.argmax(np.abs(a - b)))
         paths = f"{flat.variables[alias.i].path} == {flat.variables[alias.j].path}"
         found.append(Residual(float(abs(a - b)[worst]) / scale, float(t[worst]), f"{paths} ({alias.where})"))
@@ -72,6 +74,9 @@ def verify(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> V
 def _values(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> Callable[[Atom], FloatArray]:
     """Return what gives an atom's values (nt,) over the solution."""
     scope, t = flat.scope, np.asarray(solution.t)
+    solution.values(
+        [d.path for d in (*scope.variable, *scope.parameter, *scope.discrete)]
+    )  # computed together
     kept: dict[Atom, FloatArray] = {}
 
     def fetch(atom: Atom) -> FloatArray:
@@ -106,13 +111,21 @@ def _group(
     symbols = ca.vertcat(*expression.symbols)
     slope = ca.densify(ca.jacobian(expression.value, symbols))
     function = ca.Function("raw", [symbols], [expression.value, slope])
+    together = max(1, BATCH // (len(t) * len(expression.symbols)))
     found = []
-    for equation in group:
-        x = np.array([values(atom) for atom in equation.atoms()])
-        residual, slopes = function.map(len(t))(x)
-        size = np.abs(np.asarray(slopes, dtype=float).reshape(1, len(t), len(x), order="C")[0])
-        scale = np.maximum(size @ np.max(np.abs(x), axis=1), np.finfo(float).tiny)
-        scaled = np.abs(np.asarray(residual, dtype=float)[0]) / scale
-        worst = int(np.argmax(np.where(np.isfinite(scaled), scaled, np.inf)))
-        found.append(Residual(float(scaled[worst]), float(t[worst]), equation.text))
+    for first in range(0, len(group), together):
+        part = group[first : first + together]
+        x = np.array(
+            [[values(atom) for atom in equation.atoms()] for equation in part]
+        )  # instance, symbol, time
+        columns = np.ascontiguousarray(np.moveaxis(x, 1, 0).reshape(x.shape[1], -1))
+        residual, slopes = function.map(columns.shape[1])(columns)
+        size = np.abs(np.array(slopes.nonzeros())).reshape(len(part), len(t), x.shape[1])
+        scale = np.einsum("its,is->it", size, np.max(np.abs(x), axis=2))
+        scaled = np.abs(np.array(residual.nonzeros())).reshape(len(part), len(t)) / np.maximum(scale, TINY)
+        worst = np.argmax(np.where(np.isfinite(scaled), scaled, np.inf), axis=1)
+        found += [
+            Residual(float(row[k]), float(t[k]), e.text)
+            for e, row, k in zip(part, scaled, worst, strict=True)
+        ]
     return found
