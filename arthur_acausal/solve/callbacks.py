@@ -16,6 +16,7 @@ from time import perf_counter
 import numpy as np
 
 from arthur_acausal.solve.inputs import Inputs
+from arthur_acausal.solve.newton import Index
 from arthur_acausal.solve.protocol import DAE, BoolArray, Evaluator, FloatArray, IntArray
 
 ResidualCallback = Callable[[float, FloatArray, FloatArray, FloatArray], None]
@@ -24,6 +25,7 @@ RootCallback = Callable[[float, FloatArray, FloatArray, FloatArray], None]
 Progress = Callable[[float], None]
 
 PROGRESS_INTERVAL = 0.1  # s of wall time between reports
+STALLED = 4e15  # leading coefficient of BDF times t, about |t| / h: from here on a step is lost in rounding
 TINY = 1e-300  # stands for a relation that is exactly zero: far below any other value, far above underflow
 
 
@@ -44,7 +46,7 @@ class Monitor:
     Attributes
     ----------
     t, h : time that the last step tried to reach and length of the last new step, s.
-    halted : why the run is to stop: "", "max_steps" or "interrupted".
+    halted : why the run is to stop: "", "max_steps", "stalled" (t + h == t) or "interrupted".
     offence : the first trial state of the latest series of non-finite residuals.
     jacobian_offence : time and index (into the pattern) of the latest non-finite entry of the Jacobian.
     """
@@ -136,31 +138,26 @@ def residual_callback(evaluator: Evaluator, inputs: Inputs, monitor: Monitor) ->
 def jacobian_callback(
     dae: DAE, evaluator: Evaluator, inputs: Inputs, monitor: Monitor, dense: bool
 ) -> JacobianCallback:
-    """The Jacobian dF/dy + cj dF/dy'; dense: into an (n, n) array, sparse: into the pattern's values."""
-    ev_t, ev_y, ev_yp, ev_cj, kernel = (
-        evaluator.t,
-        evaluator.y,
-        evaluator.yp,
-        evaluator.cj,
-        evaluator.jacobian,
-    )
-    refresh = inputs.refresh if inputs.varying else None
+    """dF/dy + cj dF/dy' as IDA wants it; dense: an (n, n) array, sparse: the pattern's values."""
+    write, ev_cj, kernel = _writer(evaluator, inputs), evaluator.cj, evaluator.jacobian
     inf = math.inf
-    n = dae.n
-    columns = np.repeat(np.arange(n), np.diff(dae.sparsity.colind))
-    place = np.asarray(dae.sparsity.row, dtype=np.intp) * n + columns
+    place = _dense_places(dae)
 
     def jacobian(
         t: float, y: FloatArray, yp: FloatArray, res: FloatArray, cj: float, out: FloatArray
     ) -> None:
-        ev_t[0] = t
-        ev_y[:] = y
-        ev_yp[:] = yp
-        ev_cj[0] = cj
-        if refresh is not None:
-            refresh(t)
-        value = kernel()
+        if monitor.halted:
+            return
         monitor.jacobians += 1
+        if cj * abs(t) > STALLED:
+            monitor.halted = "stalled"
+        ev_cj[0] = cj
+        try:
+            write(t, y, yp)
+            value = kernel()
+        except KeyboardInterrupt:
+            monitor.halted = "interrupted"
+            return
         if not value.dot(value) < inf and (bad := np.flatnonzero(~np.isfinite(value))).size:
             monitor.jacobian_offence = (t, int(bad[0]))
         if dense:
@@ -171,7 +168,29 @@ def jacobian_callback(
     def nothing(t: float, y: FloatArray, yp: FloatArray, res: FloatArray, cj: float, out: FloatArray) -> None:
         out[...] = cj
 
-    return jacobian if n else nothing
+    return jacobian if dae.n else nothing
+
+
+def _writer(evaluator: Evaluator, inputs: Inputs) -> Callable[[float, FloatArray, FloatArray], None]:
+    """What writes the arguments into the evaluator's arrays."""
+    ev_t, ev_y, ev_yp = evaluator.t, evaluator.y, evaluator.yp
+    n, refresh = ev_y.size, inputs.refresh if inputs.varying else None
+
+    def write(t: float, y: FloatArray, yp: FloatArray) -> None:
+        ev_t[0] = t
+        if n:
+            ev_y[:] = y
+            ev_yp[:] = yp
+        if refresh is not None:
+            refresh(t)
+
+    return write
+
+
+def _dense_places(dae: DAE) -> Index:
+    """Where the pattern's values stand in an (n, n) array, by rows."""
+    columns = np.repeat(np.arange(dae.n), np.diff(dae.sparsity.colind))
+    return np.asarray(dae.sparsity.row, dtype=np.intp) * dae.n + columns
 
 
 class Roots:
@@ -182,11 +201,13 @@ class Roots:
     leaves its relation a rounding error to the wrong side.
     """
 
-    def __init__(self, dae: DAE, evaluator: Evaluator, inputs: Inputs, monitor: Monitor) -> None:
+    def __init__(
+        self, dae: DAE, evaluator: Evaluator, inputs: Inputs, monitor: Monitor, index: Index
+    ) -> None:
         self._evaluator, self._inputs, self._monitor = evaluator, inputs, monitor
         relations = dae.relations
-        self.index = np.array([k for k, r in enumerate(relations) if not r.time_only], dtype=np.intp)
-        self.sign_of_zero = np.array([TINY if relations[k].inclusive else -TINY for k in self.index])
+        self.index = index
+        self.sign_of_zero = np.array([TINY if relations[k].inclusive else -TINY for k in index.tolist()])
         self.window_end = -math.inf
         self.modes: BoolArray = np.zeros(self.index.size, dtype=bool)
         self.last = np.zeros(self.index.size)
@@ -200,23 +221,25 @@ class Roots:
 
     def callback(self) -> RootCallback:
         """The function that IDA calls."""
-        evaluator, monitor, index, zero = self._evaluator, self._monitor, self.index, self.sign_of_zero
-        ev_t, ev_y, ev_yp, kernel = evaluator.t, evaluator.y, evaluator.yp, evaluator.roots
-        refresh = self._inputs.refresh if self._inputs.varying else None
-        n = ev_y.size
+        monitor, index, zero = self._monitor, self.index, self.sign_of_zero
+        write, kernel = _writer(self._evaluator, self._inputs), self._evaluator.roots
 
         def roots(t: float, y: FloatArray, yp: FloatArray, out: FloatArray) -> None:
-            ev_t[0] = t
-            if n:
-                ev_y[:] = y
-                ev_yp[:] = yp
-            if refresh is not None:
-                refresh(t)
+            if monitor.halted:
+                np.copyto(out, self.last)
+                return
             monitor.roots += 1
-            np.add(kernel()[index], zero, out=out)
+            try:
+                write(t, y, yp)
+                np.add(kernel()[index], zero, out=out)
+            except KeyboardInterrupt:
+                monitor.halted = "interrupted"
+                np.copyto(out, self.last)
+                return
             if t <= self.window_end:
                 np.copyto(out, np.where(self.modes, TINY, -TINY), where=(out > 0.0) != self.modes)
             elif self.disagreement is None and ((out > 0.0) != self.modes).any():
                 self.disagreement = (t, int(index[np.flatnonzero((out > 0.0) != self.modes)[0]]))
+            np.copyto(self.last, out)
 
         return roots

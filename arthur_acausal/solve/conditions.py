@@ -43,9 +43,9 @@ class Conditions:
 def choose(dae: DAE, evaluator: Evaluator, attributes: Attributes) -> Conditions:
     """Choose initial conditions; the evaluator holds the start values.
 
-    Conditions that say the value of one state each are solved here at once: y gets that value.
+    Linear conditions on one state each are solved here at once: y gets the value they say.
     """
-    simple = _simple(dae)
+    simple = _simple(dae, evaluator)
     rest = [k for k in range(dae.n_init) if k not in simple]
     _solve_simple(dae, evaluator, simple)
     states = set(np.flatnonzero(dae.differential).tolist())
@@ -56,34 +56,36 @@ def choose(dae: DAE, evaluator: Evaluator, attributes: Attributes) -> Conditions
     return _match(dae, evaluator, attributes, pinned, rest, simple)
 
 
-def _simple(dae: DAE) -> dict[int, int]:
-    """Rows of h in which one state stands alone, each state once."""
+def _simple(dae: DAE, evaluator: Evaluator) -> dict[int, int]:
+    """Rows of h in which one state stands alone and linearly, each state once."""
     if not dae.n_init:
         return {}
     colind, row = np.asarray(dae.init_sparsity.colind), np.asarray(dae.init_sparsity.row)
     column = np.repeat(np.arange(colind.size - 1), np.diff(colind))
-    alone = np.bincount(row, minlength=dae.n_init) == 1
+    alone = np.bincount(row, minlength=dae.n_init)[row] == 1
+    slope = evaluator.initial_jacobian().copy()
+    y = evaluator.y.copy()
+    evaluator.y[:] = y + 0.1 * (np.abs(y) + 1.0)
+    linear = (evaluator.initial_jacobian() == slope) & (slope != 0.0)
+    evaluator.y[:] = y
     found: dict[int, int] = {}
     taken: set[int] = set()
-    for k, j in zip(row.tolist(), column.tolist(), strict=True):
-        if alone[k] and j < dae.n and dae.differential[j] and j not in taken:
+    for k, j in zip(row[alone & linear].tolist(), column[alone & linear].tolist(), strict=True):
+        if j < dae.n and dae.differential[j] and j not in taken:
             found[k] = j
             taken.add(j)
     return found
 
 
 def _solve_simple(dae: DAE, evaluator: Evaluator, simple: dict[int, int]) -> None:
-    """Give y the values that the conditions say: they are linear in their one state (a Newton step is exact)."""
+    """Give y the values that the conditions say."""
     if not simple:
         return
-    row = np.asarray(dae.init_sparsity.row)
     slopes = np.zeros(dae.n_init)
-    for _ in range(3):  # once suffices for y - value; more for what a user may write
-        slopes[row] = evaluator.initial_jacobian()  # right for rows of one entry
-        values = evaluator.initial()
-        for k, j in simple.items():
-            if slopes[k] != 0.0 and values[k] != 0.0:
-                evaluator.y[j] -= values[k] / slopes[k]
+    slopes[np.asarray(dae.init_sparsity.row)] = evaluator.initial_jacobian()  # right for rows of one entry
+    values = evaluator.initial()
+    for k, j in simple.items():
+        evaluator.y[j] -= values[k] / slopes[k]
 
 
 def _match(

@@ -23,6 +23,7 @@ from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Attributes, BoolArray, Evaluator, FloatArray
 from arthur_acausal.solve.trajectory import Event
 
+AFTER = "check what reinit sets, and that the equations have a solution after the event"
 DIFFERENCE = 1e-7  # forward difference, relative to the time in which a state moves by its own magnitude
 TINY = 1e-300
 
@@ -49,12 +50,19 @@ class EventIteration:
     """Handles the events of one model; it works in place on the evaluator."""
 
     def __init__(
-        self, dae: DAE, evaluator: Evaluator, attributes: Attributes, modes: Modes, options: SolverOptions
+        self,
+        dae: DAE,
+        evaluator: Evaluator,
+        attributes: Attributes,
+        modes: Modes,
+        options: SolverOptions,
+        scheduled: BoolArray,
     ) -> None:
         self._dae, self._evaluator, self._modes, self._options = dae, evaluator, modes, options
         algebraic = np.flatnonzero(~dae.differential)
         self._has_algebraic = bool(algebraic.size)
         self._system = ConsistentSystem(dae, evaluator, attributes, algebraic, algebraic[:0])
+        self._scheduled = scheduled
         self._factors: Solve | None = None
         self._scale = np.zeros(len(dae.relations))
         self._residual = np.zeros(dae.n)
@@ -68,6 +76,7 @@ class EventIteration:
         before = evaluator.m > 0.5
         self._residual = evaluator.residual().copy()
         pending, reset = inputs_jump, False
+        moving: Index = np.zeros(0, dtype=np.intp)
         for number in range(self._options.max_event_iterations):
             modes = self._right_limit(flagged, resolution, np.inf if number == 0 else 0.0 if reset else 1.0)
             moving = np.flatnonzero(modes != (evaluator.m > 0.5))
@@ -193,7 +202,7 @@ class EventIteration:
         self._factors = solved.factors
         outcome.iterations += solved.iterations
         if solved.reason:
-            raise failure(self._dae, self._evaluator, self._system, solved)
+            raise failure(self._dae, self._evaluator, self._system, solved, AFTER)
 
     def _relation_events(self, before: BoolArray, flagged: Mapping[int, bool], outcome: Outcome) -> None:
         """One entry for each relation that was known to change or has changed."""
@@ -204,7 +213,7 @@ class EventIteration:
         for k, value in sorted(changes.items()):
             relation = self._dae.relations[k]
             what = f"{relation.label} became {'true' if value else 'false'}"
-            entries.append(Event(t, what, relation.where, "time" if relation.time_only else "state"))
+            entries.append(Event(t, what, relation.where, "time" if self._scheduled[k] else "state"))
         outcome.events[:0] = entries
 
     def _unsettled(self, moving: Index) -> SimulationError:

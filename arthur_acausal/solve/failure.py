@@ -15,6 +15,7 @@ from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray, IntArray
 from arthur_acausal.solve.trajectory import Trajectory
 
+TINY = 1e-300
 NO_FINITE = "give limits or smooth laws that keep the equation in its range, or a smaller max_step"
 TOLERANCE = (
     "check the nominal values and tolerances; a smooth law in place of a jump; relations that make events"
@@ -61,12 +62,15 @@ def integration_failure(
 ) -> SolverFailure:
     """The failure that IDA reports; t is the time of the last good values, `suspect` names what limits the step."""
     meaning, remedy = MEANING.get(stretch.flag, (stretch.message, ""))
+    if monitor.halted == "stalled":
+        meaning, remedy = "the steps have become as small as the rounding of time", TOLERANCE
     found = re.search(r"\bh = ([-+.\deE]+)", stretch.message)
     step = abs(float(found[1])) if found else monitor.h
     cause = suspect
     offence = monitor.offence
     if offence is not None and offence.t > t:
-        labels = listed([dae.row_labels[i] for i in offence.rows], "; ")
+        rows: list[int] = offence.rows.tolist()
+        labels = listed([dae.row_labels[i] for i in rows], "; ")
         cause = f"no finite value at t = {offence.t:.9g} s: {labels}; {_state(dae, offence.y, offence.rows)}"
         meaning, remedy = "an equation has no finite value", NO_FINITE
     elif monitor.jacobian_offence is not None and monitor.jacobian_offence[0] > t:
@@ -92,17 +96,18 @@ def suspect(
     in units of the tolerance, of the size of the error estimate.
     """
     trial = evaluator.y.copy()
-    h = float(evaluator.t[0]) - t
-    if not dae.n or not np.isfinite(trial).all() or not h > 0.0:
+    h = max(float(evaluator.t[0]) - t, 0.0)
+    if not dae.n or not np.isfinite(trial).all():
         return ""
-    error = np.abs(trial - y - h * np.where(dae.differential, yp, 0.0)) / (rtol * np.abs(y) + atol)
+    weight = rtol * np.abs(y) + atol
+    error = np.abs(trial - y - h * np.where(dae.differential, yp, 0.0)) / weight
     k = int(np.argmax(error))
     told = f"the error of {dae.y_paths[k]} dominates (it is {y[k]:.6g} at t = {t:.9g} s)"
     residual = evaluator.residual().copy()
-    evaluator.cj[0] = 1.0 / h
+    evaluator.cj[0] = 1.0 / max(h, TINY)
     matrix = _matrix(dae, evaluator.jacobian())
-    if np.isfinite(residual).all() and np.isfinite(matrix.values).all():
-        scaled = np.abs(scaled_rows(matrix, residual, rtol * np.abs(y) + atol))
+    if h > 0.0 and np.isfinite(residual).all() and np.isfinite(matrix.values).all():
+        scaled = np.abs(scaled_rows(matrix, residual, weight))
         row = int(np.argmax(scaled))
         if scaled[row] > 1.0:
             told += f"; the largest residual is that of {dae.row_labels[row]}"

@@ -19,7 +19,7 @@ from arthur_acausal.solve.inputs import Input, Inputs
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, FloatArray
-from arthur_acausal.solve.schedule import Schedule
+from arthur_acausal.solve.schedule import Schedule, affine_relations
 from arthur_acausal.solve.statistics import Statistics
 from arthur_acausal.solve.trajectory import Event, Recorder, Status, Trajectory
 
@@ -58,8 +58,11 @@ class HybridRun:
         self._statistics = Statistics(unknowns=dae.n)
         self._monitor = Monitor(options.max_steps, progress)
         self._modes = Modes(dae, evaluator)
-        self._iteration = EventIteration(dae, evaluator, self._attributes, self._modes, options)
-        self._schedule = Schedule(dae, evaluator)
+        evaluator.z[:] = self._attributes.z_start
+        scheduled = affine_relations(dae, evaluator, start_time, stop_time)
+        self._schedule = Schedule(evaluator, np.flatnonzero(scheduled))
+        self._roots = Roots(dae, evaluator, self._inputs, self._monitor, np.flatnonzero(~scheduled))
+        self._iteration = EventIteration(dae, evaluator, self._attributes, self._modes, options, scheduled)
         self._accumulation = Accumulation(
             stop_time - start_time,
             options.zeno_interval,
@@ -91,7 +94,6 @@ class HybridRun:
         dae, options = self._dae, self._options
         self._grid = options.grid(self._start, self._stop)
         self._atol = options.absolute_tolerances(list(dae.y_paths), self._attributes.nominal)
-        self._roots = Roots(dae, self._evaluator, self._inputs, self._monitor)
         max_step = options.max_step or 0.0
         if not dae.n and not max_step:  # nothing else would make IDA look for events often enough
             max_step = float(self._grid[1] - self._grid[0])
@@ -199,7 +201,7 @@ class HybridRun:
         if self._monitor.halted == "interrupted":
             raise KeyboardInterrupt
         told = suspect(self._dae, self._evaluator, t, y, yp, self._options.rtol, self._atol)
-        if self._monitor.halted or stretch.flag == -1:
+        if self._monitor.halted == "max_steps" or stretch.flag == -1:
             raise too_many_steps(self._monitor, self._options, told)
         raise integration_failure(self._dae, self._evaluator, self._monitor, stretch, t, told)
 

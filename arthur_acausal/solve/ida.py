@@ -7,11 +7,13 @@ step, each output would cost 20 microseconds of Python more. Hindmarsh et al. (2
 from __future__ import annotations
 
 import io
+import itertools
 import math
 import os
 import re
 import sys
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal, TextIO
 
@@ -111,7 +113,7 @@ class Ida:
             times = times[[0, -1]]
         if not self._n:
             y = yp = np.zeros(1)
-        with _Capture() as printed:
+        with _Capture() as printed, np.errstate(over="ignore", invalid="ignore"):
             result = engine.solve(times, y, yp)
         first = 2 if inserted and len(result.t) > 2 else 1
         if len(result.t) > first and result.t[-1] <= start:  # failed in the first step
@@ -135,23 +137,26 @@ class Ida:
             self._stepping = self._engine(first_step)
             zero = np.zeros(1)
             self._stepping.init_step(times[0], y if self._n else zero, yp if self._n else zero)
-        method, stop = ("onestep" if onestep else "normal"), float(times[-1])
-        rows = []
-        with _Capture() as printed:
-            for t in times[1:].tolist():
-                while True:
-                    result = self._stepping.step(stop if onestep else t, method, stop)
-                    if result.status >= 0 or result.t > times[0]:
-                        rows.append((result.t, result.y, result.yp))
-                    if result.status < 0 or result.status == ROOT_RETURN or not onestep or result.t >= stop:
-                        break
-                if result.status < 0 or result.status == ROOT_RETURN or result.t >= stop:
-                    break
+        with _Capture() as printed, np.errstate(over="ignore", invalid="ignore"):
+            results = list(self._steps(times, onestep))
         self._reached = self._monitor.t
-        if result.status < 0:
+        if results[-1].status < 0:
             self._stepping = None
-        columns = [np.array(column) for column in zip(*rows, strict=True)] if rows else [np.zeros(0)] * 3
-        return self._stretch(result, columns[0], columns[1], columns[2], printed.text())
+        rows = [r for r in results if r.status >= 0 or r.t > times[0]]
+        if not rows:
+            nothing = np.zeros(0)
+            return self._stretch(results[-1], nothing, nothing, nothing, printed.text())
+        t, y, yp = (np.array([getattr(r, name) for r in rows]) for name in ("t", "y", "yp"))
+        return self._stretch(results[-1], t, y, yp, printed.text())
+
+    def _steps(self, times: FloatArray, onestep: bool) -> Iterator[Any]:
+        """Results at the output times, or of all steps, up to the last time, a root or a failure."""
+        method, stop = ("onestep" if onestep else "normal"), float(times[-1])
+        for t in itertools.repeat(stop) if onestep else times[1:].tolist():
+            result = self._stepping.step(t, method, stop)
+            yield result
+            if result.status < 0 or result.status == ROOT_RETURN or result.t >= stop:
+                return
 
     def forget(self) -> None:
         """The next `step_through` is to start anew."""
@@ -173,7 +178,7 @@ class Ida:
             for found in (self._eventsfn._i, self._eventsfn._t, self._eventsfn._y, self._eventsfn._yp):
                 found.clear()  # the binding would keep and copy the events of all starts
             self._eventsfn._i_cnt[:] = 0
-        y, yp = (a.reshape(len(t), -1)[:, : self._n] for a in (y, yp))
+        y, yp = (a.reshape(len(t), -1 if len(t) else self._n)[:, : self._n] for a in (y, yp))
         return Stretch(t, y, yp, end, directions, flag, printed or str(result.message))
 
     def _engine(self, first_step: float | None) -> Any:

@@ -15,6 +15,7 @@ from arthur_acausal.solve.newton import Solved
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator, FloatArray
 
+NEARER = "give start values inside the range of the equations and nearer to the solution"
 CONSISTENT = 1e-6  # scaled residual up to which a surplus initial condition counts as fulfilled
 
 
@@ -50,14 +51,14 @@ def initialize(
         solved = system.solve(options.newton_tolerance, options.newton_iterations)
         iterations += solved.iterations
         if solved.reason:
-            raise failure(dae, evaluator, system, solved)
+            raise failure(dae, evaluator, system, solved, NEARER)
         changed = modes.assign_discrete() | modes.update()
         if not changed:
             break
     else:
         raise InitializationError(
             f"the relations do not settle in {options.max_event_iterations} iterations: {modes.last_changed()}",
-            remedy="give start values nearer to the solution",
+            remedy=NEARER,
         )
     modes.settle()
     _check_surplus(dae, evaluator, attributes, conditions)
@@ -77,7 +78,9 @@ def row_names(dae: DAE, system: ConsistentSystem) -> list[str]:
     return [*dae.row_labels, *(dae.init_labels[k] for k in conditions)]
 
 
-def failure(dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: Solved) -> InitializationError:
+def failure(
+    dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: Solved, remedy: str
+) -> InitializationError:
     """What to tell the user when the equations at one instant are not solved."""
     rows = row_names(dae, system)
     residual = system.residual(system.unknowns()).copy()
@@ -85,8 +88,8 @@ def failure(dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: So
     if solved.reason == "not finite" or bad.size:
         return InitializationError(
             f"at t = {evaluator.t[0]:g} s these have no finite value: {listed([rows[i] for i in bad.tolist()], '; ')}",
-            cause=f"the start values are {_values(dae, evaluator, system)}",
-            remedy="give start values inside the range of the equations",
+            cause=f"the values are {_values(dae, evaluator, system)}",
+            remedy=remedy,
         )
     matrix, scale = system.matrix(), system.scale()
     scale = np.maximum(scale, np.abs(system.unknowns()))
@@ -105,7 +108,7 @@ def failure(dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: So
     return InitializationError(
         f"no consistent values at t = {evaluator.t[0]:g} s after {solved.iterations} Newton iterations "
         f"({solved.reason}); largest residuals: {told}",
-        remedy="give start values nearer to the solution",
+        remedy=remedy,
     )
 
 

@@ -4,15 +4,41 @@ from __future__ import annotations
 
 import numpy as np
 
-from arthur_acausal.solve.protocol import DAE, Evaluator
+from arthur_acausal.solve.newton import Index
+from arthur_acausal.solve.protocol import DAE, BoolArray, Evaluator, FloatArray
+
+# Where in the run g is looked at: no period of a model divides all of these parts.
+PROBES = (0.0, 0.1459, 0.3820, 0.6180, 0.8541)
+AFFINE = 1e-9  # deviation from a straight line, relative to the values
+
+
+def affine_relations(dae: DAE, evaluator: Evaluator, start_time: float, stop_time: float) -> BoolArray:
+    """Relations of time alone whose g is affine in t, as far as some probes tell.
+
+    A sawtooth, for instance, has a constant derivative and yet is none; it is left to the root finding.
+    """
+    found = np.array([r.time_only for r in dae.relations], dtype=bool)
+    if not found.any():
+        return found
+    before = float(evaluator.t[0])
+    times = start_time + np.array(PROBES) * (stop_time - start_time)
+    values = []
+    for t in times.tolist():
+        evaluator.t[0] = t
+        values.append(evaluator.roots().copy())
+    evaluator.t[0] = before
+    g = np.array(values)
+    line = g[0] + np.outer((times - times[0]) / (times[-1] - times[0]), g[-1] - g[0])
+    straight = np.abs(g - line).max(axis=0) <= AFFINE * np.abs(g).max(axis=0)
+    return np.asarray(found & straight)
 
 
 class Schedule:
     """Next times at which relations of time change. Their g is affine in t as long as z does not change."""
 
-    def __init__(self, dae: DAE, evaluator: Evaluator) -> None:
+    def __init__(self, evaluator: Evaluator, index: Index) -> None:
         self._evaluator = evaluator
-        self.index = np.array([k for k, r in enumerate(dae.relations) if r.time_only], dtype=np.intp)
+        self.index = index
         self._times = np.full(self.index.size, np.inf)
         self._rising = np.zeros(self.index.size, dtype=bool)
 
@@ -48,7 +74,7 @@ class Schedule:
         wrong = np.flatnonzero((self._times > until) & np.where(modes, g < 0.0, g > 0.0))
         return int(self.index[wrong[0]]) if wrong.size else None
 
-    def _values(self, t: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    def _values(self, t: float) -> FloatArray:
         before = self._evaluator.t[0]
         self._evaluator.t[0] = t
         values = self._evaluator.roots()[self.index]

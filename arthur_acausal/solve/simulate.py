@@ -44,12 +44,9 @@ def simulate(
     SolverInterrupted : Ctrl-C; it holds what was computed.
     UsageError : an argument cannot be used.
     """
-    if not (np.isfinite(start_time) and np.isfinite(stop_time) and stop_time > start_time):
-        raise UsageError(f"stop_time {stop_time} is not a finite time after start_time {start_time}")
-    chosen = options or SolverOptions()
-    run = HybridRun(
-        dae, float(start_time), float(stop_time), chosen, inputs or {}, parameters, start, progress
-    )
+    _check_times(start_time, stop_time)
+    chosen, begin, end = options or SolverOptions(), float(start_time), float(stop_time)
+    run = HybridRun(dae, begin, end, chosen, inputs or {}, parameters, start, progress)
     run.initialize()
     try:
         return run.integrate()
@@ -59,6 +56,11 @@ def simulate(
         raise failure from None
     except KeyboardInterrupt:
         raise SolverInterrupted(run.trajectory("interrupted", "interrupted")) from None
+
+
+def _check_times(start_time: float, stop_time: float) -> None:
+    if not (np.isfinite(start_time) and np.isfinite(stop_time) and stop_time > start_time):
+        raise UsageError(f"stop_time {stop_time} is not a finite time after start_time {start_time}")
 
 
 def _as_failure(error: ArthurError) -> SolverFailure:

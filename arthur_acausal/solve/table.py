@@ -104,7 +104,7 @@ class Table:
 class Piecewise:
     """Some tables with the same times: a polynomial in t - times[i] on each interval i.
 
-    `coefficients` has shape (order + 1, intervals, tables), the highest power first. A piece reaches from one jump
+    `coefficients` has shape (intervals, order + 1, tables), the highest power first. A piece reaches from one jump
     to the next.
     """
 
@@ -118,6 +118,8 @@ class Piecewise:
         self.jumps = [self._times[i] for i in self._steps]
         bounds = [0, *(i + 1 for i in self._steps), len(self._times)]
         self._coefficients = _coefficients(times, values, bounds, tables[0].interpolation)
+        self._powers = np.ones(self._coefficients.shape[1])
+        self._cubic = self._powers.size == 4
         self._bounds = bounds
         contiguous = indices == list(range(indices[0], indices[0] + len(indices)))
         self._u = u
@@ -140,20 +142,19 @@ class Piecewise:
         self._origin = self._times[i]
         self._from = self._origin if i > low else -np.inf
         self._to = self._times[i + 1] if i < high - 2 else np.inf
-        self._polynomial = list(self._coefficients[:, i])
+        self._polynomial = self._coefficients[i]
 
     def refresh(self, t: float) -> None:
         """Write the values at t."""
         if not self._from <= t < self._to:
             self._enter(t)
-        dt = t - self._origin
+        powers, dt = self._powers, t - self._origin
+        powers[-2] = dt
+        if self._cubic:
+            powers[1] = dt * dt
+            powers[0] = dt * dt * dt
         target = self._target
-        highest, *others = self._polynomial
-        np.multiply(highest, dt, out=target)
-        for coefficient in others[:-1]:
-            target += coefficient
-            target *= dt
-        target += others[-1]
+        np.dot(powers, self._polynomial, out=target)
         if self._view is None:
             self._u[self._scatter] = target
 
@@ -163,9 +164,9 @@ class Piecewise:
         i = low + np.searchsorted(self._knots[low:high], times, side="right") - 1
         i = np.maximum(low, np.minimum(i, high - 2))
         dt = (times - self._knots[i])[:, None]
-        result = self._coefficients[0, i]
-        for coefficient in self._coefficients[1:]:
-            result = result * dt + coefficient[i]
+        result = self._coefficients[i, 0]
+        for power in range(1, self._powers.size):
+            result = result * dt + self._coefficients[i, power]
         return np.asarray(result)
 
 
@@ -181,10 +182,11 @@ def _coefficients(times: FloatArray, values: FloatArray, bounds: list[int], inte
         if interpolation == "pchip":
             from scipy.interpolate import PchipInterpolator
 
-            result[:, low : high - 1] = PchipInterpolator(t, v).c
+            with np.errstate(over="ignore"):  # slopes of almost no size are inverted on the way
+                result[:, low : high - 1] = PchipInterpolator(t, v).c
         else:
             result[0, low : high - 1] = np.diff(v, axis=0) / np.diff(t)[:, None]
-    return result
+    return np.ascontiguousarray(result.transpose(1, 0, 2))
 
 
 def _check_points(times: FloatArray, values: FloatArray, source: str) -> None:
