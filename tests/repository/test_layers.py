@@ -27,6 +27,8 @@ LAYERS = (
     "solve",
     "result",
     "api",
+    "components",
+    "models",
     "cli",
 )
 
