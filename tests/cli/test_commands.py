@@ -243,13 +243,13 @@ def test_a_full_disk_does_not_cost_the_run(arthur: Arthur, ball: str, tmp_path: 
 
 def test_an_error_in_the_models_own_code(arthur: Arthur, models: Path) -> None:
     models.write_text(
-        models.read_text() + "\n\nclass Odd(Ball):\n    def build(self) -> None:\n        1 / 0\n"
+        models.read_text() + "\n\nclass Odd(Ball):\n    def audit_terms(self):\n        1 / 0\n"
     )
-    result = arthur("check", f"{models}:Odd")
+    result = arthur("simulate", f"{models}:Odd", "-t", "0.1")
     assert result.exit_code == 1
     assert "ZeroDivisionError" in result.stderr and "--debug" in result.stderr
     assert "Traceback" not in result.stderr
-    assert "Traceback" in arthur("check", f"{models}:Odd", "--debug").stderr
+    assert "in audit_terms" in arthur("simulate", f"{models}:Odd", "-t", "0.1", "--debug").stderr
 
 
 # --- plot
