@@ -8,6 +8,7 @@ import re
 NUMBER = re.compile(r"[-+]?(?:\d[\d,]*\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 DURATION = re.compile(r"\b\d[\d.e+]* (?:s|ms|µs|min)\b(?= \w|,|$| *\n)")
 STATISTICS = re.compile(r"^statistics\n(?:  .*\n?)*", re.MULTILINE)
+VERIFICATION = re.compile(r"(?<=\n)(verification: .*\n)(?:  .*\n?)*")
 COUNT = "#"  # stands for a number that may differ
 RELATIVE, ABSOLUTE = 5e-3, 2e-3
 SMALL = 1e-4  # numbers below are rounding and truncation errors
@@ -17,7 +18,8 @@ def difference(said: str, printed: str) -> str:
     """Return the first difference in words, or an empty text.
 
     A line that is just "..." in ``said`` stands for any lines, "..." within a line for any words. Numbers
-    agree to 0.5 %; counts and times of the statistics, wall times and very small numbers may be anything.
+    agree to 0.5 %; counts and times of the statistics, wall times, very small numbers and what a verification lists
+    may be anything.
     """
     expected, found = normal(said), normal(printed)
     return match(expected.split(), found.split())
@@ -26,6 +28,7 @@ def difference(said: str, printed: str) -> str:
 def normal(text: str) -> str:
     """The text with what may differ made equal."""
     text = STATISTICS.sub(lambda m: NUMBER.sub(COUNT, m[0]), text)
+    text = VERIFICATION.sub(r"\1", text)  # which equations are the worst is a matter of rounding
     text = DURATION.sub(f"{COUNT} s", text)
     return NUMBER.sub(lambda m: COUNT if 0.0 < abs(value(m[0])) < SMALL else m[0], text)
 

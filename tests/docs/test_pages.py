@@ -27,6 +27,10 @@ def test_page_runs_as_printed(page: Path, tmp_path: Path, monkeypatch: pytest.Mo
                 wrong.append(
                     f"line {run.line}: {run.what}\n  prints something that the page does not show:\n{run.printed}"
                 )
+        elif run.failed != run.should_fail:
+            wrong.append(
+                f"line {run.line}: {run.what}\n  {'failed' if run.failed else 'did not fail'}\n{run.printed}"
+            )
         elif found := difference(run.said, run.printed):
             wrong.append(f"line {run.line}: {run.what}\n  {found}\n{run.printed}")
     assert not wrong, "\n".join(wrong)
