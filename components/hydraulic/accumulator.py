@@ -30,7 +30,7 @@ class Accumulator(Component):
     V_dead: Real = parameter(
         "m^3", default=lambda self: 0.01 * self.V_0, description="fluid volume below precharge"
     )
-    p: Real = variable("Pa", nominal=1e7, display="bar", description="fluid pressure")
+    p: Real = variable("Pa", start=1e5, nominal=1e7, display="bar", description="fluid pressure")
     V_g: Real = variable("m^3", nominal=1e-4, description="gas volume")
     V_f: Real = variable("m^3", nominal=1e-4, description="fluid volume")
     C_g: Real = variable("m^3/Pa", nominal=1e-11, description="capacitance of the gas")

@@ -27,7 +27,9 @@ class LineSegment(Component):
     fluid: Fluid = Fluid()
     L: Real = parameter("m", min=0.0)
     d: Real = parameter("m", min=0.0)
-    q: Real = variable("m^3/s", nominal=1e-4, display="L/min", description="flow from port_a to port_b")
+    q: Real = variable(
+        "m^3/s", start=0.0, nominal=1e-4, display="L/min", description="flow from port_a to port_b"
+    )
     dp_friction: Real = variable("Pa", nominal=1e5, display="bar", description="pressure drop by friction")
     P_loss: Real = variable("W", description="power turned to heat by friction")
     E_stored: Real = variable("J", description="kinetic energy")
@@ -80,11 +82,9 @@ class Line(Component):
         shares = [
             1 - 0.5 * (self.volume_a and i == 0) - 0.5 * (self.volume_b and i == n - 1) for i in range(n)
         ]
-        self.cells = [Volume(fluid=self.fluid, V=V * share) for share in shares]
+        self.cells = [Volume(V=V * share) for share in shares]
         lengths = [0.5] * (not self.volume_a) + [1.0] * (n - 1) + [0.5] * (not self.volume_b)
-        self.segments = [
-            LineSegment(fluid=self.fluid, friction=self.friction, L=dx * share, d=self.d) for share in lengths
-        ]
+        self.segments = [LineSegment(friction=self.friction, L=dx * share, d=self.d) for share in lengths]
 
     def equations(self) -> Equations:
         nodes = [cell.port for cell in self.cells]

@@ -46,7 +46,8 @@ class BrushlessMotor(Component):
     b_m: Real = parameter("N*m*s/rad", default=7.14e-6, min=0.0, description="friction of the bearings")
     J: Real = parameter("kg*m^2", default=3.147e-4, min=0.0, description="moment of inertia of the rotor")
     I_max: Real = parameter("A", default=50.0, min=0.0, description="limit of the current")
-    w: Real = variable("rad/s", nominal=500.0, display="rpm", description="speed")
+    phi: Real = variable("rad", start=0.0, description="angle of the shaft")
+    w: Real = variable("rad/s", start=0.0, nominal=500.0, display="rpm", description="speed")
     I: Real = variable("A", nominal=10.0, description="line current")
     V_t: Real = variable("V", nominal=10.0, description="terminal voltage")
     tau: Real = variable("N*m", description="torque of the rotor's field")
@@ -56,7 +57,8 @@ class BrushlessMotor(Component):
 
     def equations(self) -> Equations:
         power = 1 / LINE_TO_LINE if self.law == "line" else 1.0
-        yield self.w == der(self.flange.phi)
+        yield self.phi == self.flange.phi
+        yield self.w == der(self.phi)
         yield "current", self.I == self.limited((self.V - self.K_e * self.w) / self.R_LL)
         yield "voltage balance", self.V_t == self.R_LL * self.I + self.K_e * self.w
         yield self.tau == self.K_T * self.I

@@ -22,7 +22,7 @@ class Ram(Component):
     area: Real = parameter("m^2", min=0.0)
     dead_volume: Real = parameter("m^3", min=0.0, description="volume at rod.s = 0")
     p_ambient: Real = parameter("Pa", default=0.0, display="bar")
-    p: Real = variable("Pa", nominal=1e7, display="bar", description="pressure")
+    p: Real = variable("Pa", start=1e5, nominal=1e7, display="bar", description="pressure")
     V: Real = variable("m^3", nominal=1e-5, description="volume of fluid")
 
     def equations(self) -> Equations:

@@ -37,10 +37,16 @@ class GasReservoir(Component):
     m_p: Real = parameter("kg", default=0.04, min=0.0, description="piston mass")
     k: Real = parameter("N/m", default=1.42e9, min=0.0, description="stiffness of the stops, eq. 5.68")
     b: Real = parameter("N*s/m", default=10.0, min=0.0, description="damping of the piston")
-    z: Real = variable("m", nominal=0.01, display="mm", description="piston position")
-    v: Real = variable("m/s", nominal=0.1, description="piston velocity")
-    p: Real = variable("Pa", nominal=1e5, display="bar", description="fluid pressure")
-    p_g: Real = variable("Pa", nominal=1e5, display="bar", description="gas pressure")
+    z: Real = variable(
+        "m", start=lambda self: self.z_i, nominal=0.01, display="mm", description="piston position"
+    )
+    v: Real = variable("m/s", start=0.0, nominal=0.1, description="piston velocity")
+    p: Real = variable(
+        "Pa", start=lambda self: self.p_gi, nominal=1e5, display="bar", description="fluid pressure"
+    )
+    p_g: Real = variable(
+        "Pa", start=lambda self: self.p_gi, nominal=1e5, display="bar", description="gas pressure"
+    )
     V_f: Real = variable("m^3", nominal=1e-5, description="fluid volume")
     V_g: Real = variable("m^3", nominal=1e-5, description="gas volume")
     m_fluid: Real = variable("kg", nominal=0.1, description="mass of the fluid")

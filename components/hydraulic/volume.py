@@ -17,7 +17,7 @@ class Volume(Component):
     port = HydraulicPort()
     fluid: Fluid = Fluid()
     V: Real = parameter("m^3", min=0.0)
-    p: Real = variable("Pa", nominal=1e7, display="bar", description="pressure")
+    p: Real = variable("Pa", start=1e5, nominal=1e7, display="bar", description="pressure")
     m: Real = variable("kg", nominal=1e-2, description="mass of the fluid")
     E_stored: Real = variable("J", description="energy of compression")
 

@@ -15,8 +15,8 @@ class Inertia(Component):
     flange_a = Flange()
     flange_b = Flange()
     J: Real = parameter("kg*m^2", min=0.0, description="moment of inertia")
-    phi: Real = variable("rad", description="angle")
-    w: Real = variable("rad/s", description="angular velocity")
+    phi: Real = variable("rad", start=0.0, description="angle")
+    w: Real = variable("rad/s", start=0.0, description="angular velocity")
     E_kinetic: Real = variable("J", description="kinetic energy")
 
     def equations(self) -> Equations:

@@ -14,8 +14,8 @@ class Mass(Component):
 
     flange = Flange()
     m: Real = parameter("kg", min=0.0, description="mass")
-    s: Real = variable("m", description="position")
-    v: Real = variable("m/s", description="velocity")
+    s: Real = variable("m", start=0.0, description="position")
+    v: Real = variable("m/s", start=0.0, description="velocity")
     E_kinetic: Real = variable("J", description="kinetic energy")
 
     def equations(self) -> Equations:

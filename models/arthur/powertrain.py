@@ -73,7 +73,12 @@ class Powertrain(Component):
     def build(self) -> None:
         self.choice = choice = self._choice()
         self._choose_fluid()
-        self.motor = BrushlessMotor(law=choice.motor_law, clamp=choice.motor_clamp, w=start(0.0, fixed=True))
+        self.motor = BrushlessMotor(
+            law=choice.motor_law,
+            clamp=choice.motor_clamp,
+            phi=start(0.0, fixed=True),
+            w=start(0.0, fixed=True),
+        )
         if choice.supply == "battery":
             self.drive = BatteryDrive()
         self.pump = self._pump()

@@ -1,0 +1,79 @@
+"""Every class of the library: it balances by itself, its units agree, its docstring tells what it is."""
+
+from __future__ import annotations
+
+import inspect
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from arthur_acausal import Component
+from arthur_acausal.components import blocks, hydraulic, rotational, translational
+from arthur_acausal.flatten.flatten import flatten
+
+ABSTRACT = {"TwoPort", "Compliant", "Block", "SISO", "Source"}
+STRUCTURAL = {"TimeTable": {"times": (0.0, 1.0, 3.0), "values": (0.0, 2.0, 1.0)}}
+OPTIONS = [
+    hydraulic.BrushlessMotor(law="dc", clamp="none"),
+    hydraulic.BrushlessMotor(clamp="above"),
+    hydraulic.ReliefValve(law="listing"),
+    hydraulic.ServoValve(law="listing"),
+    hydraulic.ServoValve(spool="second order"),
+    hydraulic.Cylinder(efficiency="printed"),
+    hydraulic.Cylinder(stribeck=True, stop_events=True),
+    hydraulic.Cylinder(inertia=False),
+    hydraulic.GasReservoir(gas="integrated", stop_events=True),
+    hydraulic.Volume(V=1e-3, fluid=hydraulic.Fluid(constant_density=True)),
+    hydraulic.Volume(V=1e-3, fluid=hydraulic.Fluid(air=True)),
+    hydraulic.Volume(V=1e-3, fluid=hydraulic.Fluid(cavitation=True)),
+    hydraulic.Line(L=1.0, d=0.01, friction="turbulent", volume_a=True),
+    hydraulic.Line(L=1.0, d=0.01, friction="none", volume_b=True),
+    blocks.TimeTable(times=(0.0, 1.0), values=(0.0, 1.0), events=True),
+]
+
+
+def library() -> list[type[Component]]:
+    """All component classes that can be used as they are."""
+    found: list[type[Component]] = []
+    modules: list[ModuleType] = [blocks, hydraulic, rotational, translational]
+    for module in modules:
+        members = [getattr(module, name) for name in module.__all__]
+        found += [m for m in members if inspect.isclass(m) and issubclass(m, Component)]
+    return [c for c in found if c.__name__ not in ABSTRACT]
+
+
+def example(component: type[Component]) -> Component:
+    """Return an instance, with 1 for each parameter that has no default."""
+    quantities = component._declarations.quantities
+    required: dict[str, Any] = {
+        n: 1.0 for n, q in quantities.items() if q.kind == "parameter" and q.default is None
+    }
+    return component(**required, **STRUCTURAL.get(component.__name__.partition("[")[0], {}))
+
+
+@pytest.mark.parametrize("component", library(), ids=lambda c: f"{c.__module__.split('.')[-2]}.{c.__name__}")
+def test_a_component_balances_and_its_units_agree(component: type[Component]) -> None:
+    flat = flatten(example(component))
+    assert flat.n_equations == len(flat.variables)
+
+
+@pytest.mark.parametrize("component", OPTIONS, ids=repr)
+def test_each_option_balances(component: Component) -> None:
+    flat = flatten(component)
+    assert flat.n_equations == len(flat.variables)
+
+
+@pytest.mark.parametrize(
+    "block", [c for c in library() if issubclass(c, blocks.Block)], ids=lambda c: c.__name__
+)
+def test_a_block_takes_other_units(block: type[blocks.Block]) -> None:
+    if block is not blocks.Clock:
+        flatten(example(block.of("A")) if issubclass(block, blocks.Source) else example(block.of("A", "m")))
+
+
+@pytest.mark.parametrize("component", library(), ids=lambda c: c.__name__)
+def test_a_component_says_what_it_is(component: type[Component]) -> None:
+    assert inspect.getdoc(component)
+    for name, quantity in component._declarations.quantities.items():
+        assert quantity.unit, name
