@@ -89,13 +89,13 @@ def race(stop_time: float) -> dict[str, Any]:
     from arthur_acausal import translate
     from arthur_acausal.models.arthur.demo import Demo
     from benchmarks.powertrain_byhand import flat, trot
-    from benchmarks.race import REFERENCE_RTOL, Idas
+    from benchmarks.race import REFERENCE_RTOL, Idas, with_nominals_of
 
     grid = np.linspace(0.0, stop_time, INTERVALS + 1)
     figures: dict[str, Any] = {}
     for audit in (True, False):
-        equations = flat(trot, audit=audit)
         translation = translate(Demo(audit=audit))
+        equations = with_nominals_of(translation, flat(trot, audit=audit))
         reference = Idas(equations, grid, REFERENCE_RTOL).run()
         laps = {label: lap(translation, equations, label, grid, reference) for label in TOLERANCES}
         by_key = {key: {label: row[key] for label, row in laps.items()} for key in laps["1e-4"]}

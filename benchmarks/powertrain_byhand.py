@@ -49,6 +49,7 @@ class Flat:
     x_nominal: Array
     z_nominal: Array
     paths: tuple[str, ...]
+    z_path: str
 
 
 def turbulent(dp: SX, dp_small: float) -> SX:
@@ -183,4 +184,5 @@ def flat(inputs: Inputs, audit: bool = False) -> Flat:
             "reservoir.p",
             *(f"energy_{name}.E" for name in powers if audit),
         ),
+        z_path="filter.port_b.p",
     )

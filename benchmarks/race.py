@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi
 import numpy as np
 
-from arthur_acausal import Solution
+from arthur_acausal import Solution, Translation
 from benchmarks.measure import Times, repeat
 from benchmarks.powertrain_byhand import Array, Flat
 
@@ -33,6 +33,17 @@ class Error:
     worst: float
     path: str
     rms: float
+
+
+def with_nominals_of(translation: Translation, flat: Flat) -> Flat:
+    """Return the equations with our model's nominal values, so that the absolute tolerances are the same."""
+    dae = translation.dae
+    nominal = dict(zip(dae.y_paths, dae.attributes(dae.parameter_vector()).nominal, strict=True))
+    return replace(
+        flat,
+        x_nominal=np.array([nominal[path] for path in flat.paths]),
+        z_nominal=np.array([nominal[flat.z_path]]),
+    )
 
 
 class Idas:
