@@ -26,6 +26,7 @@ Progress = Callable[[float], None]
 
 PROGRESS_INTERVAL = 0.1  # s of wall time between reports
 STALLED = 4e15  # leading coefficient of BDF times t, about |t| / h: from here on a step is lost in rounding
+BLAS_UP_TO = 1000  # elements
 TINY = 1e-300  # stands for a relation that is exactly zero: far below any other value, far above underflow
 
 
@@ -90,7 +91,7 @@ class Monitor:
     def refuse(self, evaluator: Evaluator, residual: FloatArray) -> bool:
         """Keep the first trial state of a series of bad ones; False if the residual is finite after all."""
         bad = ~np.isfinite(residual)
-        if not bad.any():  # only the sum of its squares overflowed
+        if not bad.any():  # only the sum overflowed
             return False
         # After a bad residual IDA's next iterate is no number either: that says nothing about the model.
         if self.residuals != self.last_bad + 1 and np.isfinite(evaluator.y).all():
@@ -106,7 +107,11 @@ def residual_callback(evaluator: Evaluator, inputs: Inputs, monitor: Monitor) ->
     n = evaluator.y.size
     ev_t, ev_y, ev_yp, kernel = evaluator.t, evaluator.y, evaluator.yp, evaluator.residual
     refresh = inputs.refresh if inputs.varying else None
-    inf = math.inf
+    inf, isfinite = math.inf, math.isfinite
+    value = kernel()  # always the same array
+    # One number that is finite if all are: the sum of squares is quickest, but for long vectors BLAS asks its
+    # threads, which may have to wait for a core.
+    summary = value.dot if n < BLAS_UP_TO else np.add.reduce
 
     def residual(t: float, y: FloatArray, yp: FloatArray, out: FloatArray) -> None:
         try:
@@ -119,8 +124,8 @@ def residual_callback(evaluator: Evaluator, inputs: Inputs, monitor: Monitor) ->
                 ev_yp[:] = yp
                 if refresh is not None:
                     refresh(t)
-                value = kernel()
-                if value.dot(value) < inf or not monitor.refuse(evaluator, value):
+                kernel()
+                if isfinite(summary(value)) or not monitor.refuse(evaluator, value):
                     out[:] = value
                     return
         except KeyboardInterrupt:
@@ -140,7 +145,7 @@ def jacobian_callback(
 ) -> JacobianCallback:
     """dF/dy + cj dF/dy' as IDA wants it; dense: an (n, n) array, sparse: the pattern's values."""
     write, ev_cj, kernel = _writer(evaluator, inputs), evaluator.cj, evaluator.jacobian
-    inf = math.inf
+    isfinite = math.isfinite
     place = _dense_places(dae)
 
     def jacobian(
@@ -158,7 +163,7 @@ def jacobian_callback(
         except KeyboardInterrupt:
             monitor.halted = "interrupted"
             return
-        if not value.dot(value) < inf and (bad := np.flatnonzero(~np.isfinite(value))).size:
+        if not isfinite(np.add.reduce(value)) and (bad := np.flatnonzero(~np.isfinite(value))).size:
             monitor.jacobian_offence = (t, int(bad[0]))
         if dense:
             out.reshape(-1)[place] = value  # the other entries were zero at the start and stay so
@@ -208,38 +213,44 @@ class Roots:
         relations = dae.relations
         self.index = index
         self.sign_of_zero = np.array([TINY if relations[k].inclusive else -TINY for k in index.tolist()])
-        self.window_end = -math.inf
-        self.modes: BoolArray = np.zeros(self.index.size, dtype=bool)
-        self.last = np.zeros(self.index.size)
+        self.modes: BoolArray = np.zeros(index.size, dtype=bool)
         self.disagreement: tuple[float, int] | None = None
+        self._window_end = -math.inf
+        self._expected = self.modes.tobytes()
 
     def restart(self, window_end: float) -> None:
         """Take the modes as they are now and trust them up to `window_end`."""
         self.modes = self._evaluator.m[self.index] > 0.5
-        self.window_end = window_end
         self.disagreement = None
+        self._window_end = window_end
+        self._expected = self.modes.tobytes()
 
     def callback(self) -> RootCallback:
-        """The function that IDA calls."""
+        """The function that IDA calls, also once at each output time."""
         monitor, index, zero = self._monitor, self.index, self.sign_of_zero
         write, kernel = _writer(self._evaluator, self._inputs), self._evaluator.roots
+        everything = index.size == self._evaluator.m.size
 
         def roots(t: float, y: FloatArray, yp: FloatArray, out: FloatArray) -> None:
-            if monitor.halted:
-                np.copyto(out, self.last)
-                return
-            monitor.roots += 1
             try:
-                write(t, y, yp)
-                np.add(kernel()[index], zero, out=out)
+                if not monitor.halted:
+                    monitor.roots += 1
+                    write(t, y, yp)
+                    g = kernel()
+                    np.add(g if everything else g[index], zero, out)
+                    if (out > 0.0).tobytes() != self._expected:
+                        self._differs(t, out)
+                    return
             except KeyboardInterrupt:
                 monitor.halted = "interrupted"
-                np.copyto(out, self.last)
-                return
-            if t <= self.window_end:
-                np.copyto(out, np.where(self.modes, TINY, -TINY), where=(out > 0.0) != self.modes)
-            elif self.disagreement is None and ((out > 0.0) != self.modes).any():
-                self.disagreement = (t, int(index[np.flatnonzero((out > 0.0) != self.modes)[0]]))
-            np.copyto(self.last, out)
+            out[:] = np.where(self.modes, TINY, -TINY)
 
         return roots
+
+    def _differs(self, t: float, out: FloatArray) -> None:
+        """Correct a value in the window; keep the first difference after it, which must lead to an event."""
+        differs = (out > 0.0) != self.modes
+        if t <= self._window_end:
+            out[differs] = np.where(self.modes, TINY, -TINY)[differs]
+        elif self.disagreement is None:
+            self.disagreement = (t, int(self.index[np.flatnonzero(differs)[0]]))

@@ -175,6 +175,9 @@ class HybridRun:
             self._event(flagged, jump)
         if self._ended is None and self._stop - t <= near:
             self._ended = ("finished", "")
+            if t != self._stop:  # an event a rounding error before the end
+                self._evaluator.t[0] = self._stop
+                self._record_point()
 
     def _event(self, flagged: Mapping[int, bool], jump: bool = False) -> None:
         """Handle an event at the present time; `flagged` relations are known to change."""

@@ -6,20 +6,19 @@ step, each output would cost 20 microseconds of Python more. Hindmarsh et al. (2
 
 from __future__ import annotations
 
-import io
 import itertools
 import math
 import os
-import re
 import sys
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Literal, TextIO
+from typing import Any, Literal
 
 import numpy as np
 
 from arthur_acausal.solve.callbacks import Monitor, Roots, jacobian_callback, residual_callback
+from arthur_acausal.solve.capture import captured, text_of
 from arthur_acausal.solve.inputs import Inputs
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray
@@ -113,12 +112,12 @@ class Ida:
             times = times[[0, -1]]
         if not self._n:
             y = yp = np.zeros(1)
-        with _Capture() as printed, np.errstate(over="ignore", invalid="ignore"):
+        with captured() as printed, np.errstate(over="ignore", invalid="ignore"):
             result = engine.solve(times, y, yp)
         first = 2 if inserted and len(result.t) > 2 else 1
         if len(result.t) > first and result.t[-1] <= start:  # failed in the first step
             first = len(result.t)
-        return self._stretch(result, result.t[first:], result.y[first:], result.yp[first:], printed.text())
+        return self._stretch(result, result.t[first:], result.y[first:], result.yp[first:], text_of(printed))
 
     def step_through(
         self,
@@ -137,7 +136,7 @@ class Ida:
             self._stepping = self._engine(first_step)
             zero = np.zeros(1)
             self._stepping.init_step(times[0], y if self._n else zero, yp if self._n else zero)
-        with _Capture() as printed, np.errstate(over="ignore", invalid="ignore"):
+        with captured() as printed, np.errstate(over="ignore", invalid="ignore"):
             results = list(self._steps(times, onestep))
         self._reached = self._monitor.t
         if results[-1].status < 0:
@@ -145,9 +144,9 @@ class Ida:
         rows = [r for r in results if r.status >= 0 or r.t > times[0]]
         if not rows:
             nothing = np.zeros(0)
-            return self._stretch(results[-1], nothing, nothing, nothing, printed.text())
+            return self._stretch(results[-1], nothing, nothing, nothing, text_of(printed))
         t, y, yp = (np.array([getattr(r, name) for r in rows]) for name in ("t", "y", "yp"))
-        return self._stretch(results[-1], t, y, yp, printed.text())
+        return self._stretch(results[-1], t, y, yp, text_of(printed))
 
     def _steps(self, times: FloatArray, onestep: bool) -> Iterator[Any]:
         """Results at the output times, or of all steps, up to the last time, a root or a failure."""
@@ -225,32 +224,3 @@ def _pattern(dae: DAE) -> Any:
 
     colind, row = np.asarray(dae.sparsity.colind, np.int32), np.asarray(dae.sparsity.row, np.int32)
     return csc_matrix((np.ones(row.size), row, colind), shape=(dae.n, dae.n))
-
-
-class _Capture(io.TextIOBase):
-    """Keeps IDA's messages, which the binding prints, from standard output; lets everything else through."""
-
-    _PATTERN = re.compile(r"^\n?\[IDA|^\n?\[SUN")
-
-    def __enter__(self) -> _Capture:
-        self._parts: list[str] = []
-        self._ours = False
-        self._before: TextIO = sys.stdout
-        sys.stdout = self
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        sys.stdout = self._before
-
-    def write(self, text: str) -> int:
-        if self._PATTERN.match(text) or (self._ours and text == "\n"):
-            self._ours = text != "\n"
-            self._parts.append(text)
-            return len(text)
-        return self._before.write(text)
-
-    def flush(self) -> None:
-        self._before.flush()
-
-    def text(self) -> str:
-        return " ".join("".join(self._parts).split())
