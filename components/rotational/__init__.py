@@ -1,26 +1,60 @@
 """Rotational mechanics in one dimension."""
 
+from arthur_acausal.components.rotational.backlash import ElastoBacklash
 from arthur_acausal.components.rotational.elements import (
     Compliant,
     Damper,
+    Disc,
     Fixed,
-    IdealGear,
     Inertia,
     Spring,
     SpringDamper,
 )
 from arthur_acausal.components.rotational.flange import Flange
-from arthur_acausal.components.rotational.sensors import AngleSensor, SpeedSensor, TorqueSensor
-from arthur_acausal.components.rotational.sources import SpeedSource, TorqueSource
+from arthur_acausal.components.rotational.friction import BearingFriction, Brake, Clutch, OneWayClutch
+from arthur_acausal.components.rotational.gears import IdealGear, IdealGearR2T, LossyGear
+from arthur_acausal.components.rotational.sensors import (
+    AccelerationSensor,
+    AngleSensor,
+    PowerSensor,
+    RelativeAngleSensor,
+    RelativeSpeedSensor,
+    SpeedSensor,
+    TorqueSensor,
+)
+from arthur_acausal.components.rotational.sources import (
+    AngleSource,
+    ConstantSpeed,
+    ConstantTorque,
+    QuadraticTorque,
+    SpeedSource,
+    TorqueSource,
+)
 
 __all__ = [
+    "AccelerationSensor",
     "AngleSensor",
+    "AngleSource",
+    "BearingFriction",
+    "Brake",
+    "Clutch",
     "Compliant",
+    "ConstantSpeed",
+    "ConstantTorque",
     "Damper",
+    "Disc",
+    "ElastoBacklash",
     "Fixed",
     "Flange",
     "IdealGear",
+    "IdealGearR2T",
     "Inertia",
+    "LossyGear",
+    "OneWayClutch",
+    "PowerSensor",
+    "QuadraticTorque",
+    "RelativeAngleSensor",
+    "RelativeSpeedSensor",
     "SpeedSensor",
     "SpeedSource",
     "Spring",

@@ -27,6 +27,18 @@ class Inertia(Component):
         yield self.E_kinetic == self.J * self.w**2 / 2
 
 
+class Disc(Component):
+    """A massless disc that turns the angle by ``delta_phi`` [rad] from flange_a to flange_b."""
+
+    flange_a = Flange()
+    flange_b = Flange()
+    delta_phi: Real = parameter("rad", default=0.0)
+
+    def equations(self) -> Equations:
+        yield self.flange_b.phi == self.flange_a.phi + self.delta_phi
+        yield self.flange_a.tau + self.flange_b.tau == 0
+
+
 class Compliant(Component):
     """What massless elements between two flanges share: ``phi_rel`` [rad], the twist, and one torque [N m].
 
@@ -93,15 +105,3 @@ class Fixed(Component):
 
     def equations(self) -> Equations:
         yield self.flange.phi == self.phi0
-
-
-class IdealGear(Component):
-    """A gear without loss or inertia: phi_a = ratio phi_b."""
-
-    flange_a = Flange()
-    flange_b = Flange()
-    ratio: Real = parameter("1", default=1.0)
-
-    def equations(self) -> Equations:
-        yield self.flange_a.phi == self.ratio * self.flange_b.phi
-        yield self.ratio * self.flange_a.tau + self.flange_b.tau == 0
