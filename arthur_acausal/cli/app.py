@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from arthur_acausal.cli.failure import reported
+from arthur_acausal.cli.failure import quiet, reported
 
 app = typer.Typer(
     name="arthur",
@@ -70,8 +70,8 @@ def info(model: Model, settings: Set = None, debug: Debug = False) -> None:
     from arthur_acausal.cli.describe import as_text
     from arthur_acausal.cli.locate import build_model
 
-    built, _ = build_model(model, settings or [])
-    typer.echo(as_text(translate(built, compile="never")))
+    built = build_model(model, settings or [])
+    typer.echo(as_text(translate(built.model, name=built.name, compile="never"), built.parameters))
 
 
 @app.command()
@@ -79,12 +79,14 @@ def info(model: Model, settings: Set = None, debug: Debug = False) -> None:
 def check(model: Model, settings: Set = None, as_json: Json = False, debug: Debug = False) -> None:
     """Check a model's structure and say how its equations are solved."""
     from arthur_acausal.cli.locate import build_model
-    from arthur_acausal.cli.structure import as_object, as_text
+    from arthur_acausal.cli.structure import as_object, as_text, only_structural
     from arthur_acausal.flatten.flatten import flatten
     from arthur_acausal.transform.structured import report, transform
 
-    built, _ = build_model(model, settings or [])
-    found = report(transform(flatten(built)))
+    with quiet(as_json):
+        built = build_model(model, settings or [])
+        only_structural(built)
+        found = report(transform(flatten(built.model, name=built.name)))
     typer.echo(json.dumps(as_object(found), ensure_ascii=False) if as_json else as_text(found))
 
 
@@ -134,7 +136,7 @@ def simulate(
     from arthur_acausal.cli.simulate import Request
     from arthur_acausal.cli.simulate import simulate as carry_out
 
-    carry_out(
+    text = carry_out(
         Request(
             model=model,
             stop=stop,
@@ -151,6 +153,7 @@ def simulate(
             as_json=as_json,
         )
     )
+    typer.echo(text)
 
 
 @app.command()

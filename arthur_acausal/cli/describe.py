@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import inspect
 import re
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from arthur_acausal.cli.alike import alike
-from arthur_acausal.cli.settings import structural_parameters
+from arthur_acausal.cli.settings import annotation, structural_parameters
 from arthur_acausal.cli.table import WIDTH, count, number, table
 from arthur_acausal.result.display import display_unit, pretty_unit
 
@@ -15,8 +16,8 @@ if TYPE_CHECKING:
     from arthur_acausal.api import Translation
 
 
-def as_text(translation: Translation) -> str:
-    """Docstring, parts, structural parameters, parameters and inputs of a model."""
+def as_text(translation: Translation, given: Mapping[str, float | str]) -> str:
+    """Docstring, parts, structural parameters, parameters (some of them given) and inputs of a model."""
     model, flat = translation.model, translation.flat
     counts = ", ".join(
         [
@@ -30,7 +31,7 @@ def as_text(translation: Translation) -> str:
         f"{flat.name}: {counts}\n\n{filled(unquoted(inspect.getdoc(type(model)) or ''))}",
         titled("parts", parts(translation)),
         titled("structural parameters", structural(type(model), model)),
-        titled("parameters", parameters(translation)),
+        titled("parameters", parameters(translation, given)),
         titled("inputs", inputs(translation)),
     ]
     return "\n\n".join(section for section in sections if section)
@@ -88,20 +89,18 @@ def filled(text: str, width: int = WIDTH) -> str:
 
 def structural(kind: type[Any], model: object) -> str:
     """Structural parameters, their values and types."""
-    hints = kind.__annotations__
     rows = []
     for name in structural_parameters(kind):
-        annotation = hints.get(name, "")
-        rows.append(
-            [name, repr(getattr(model, name, None)), str(getattr(annotation, "__name__", annotation))]
-        )
+        wanted = annotation(kind, name)
+        text = wanted.__name__ if inspect.isclass(wanted) else str(wanted).replace("typing.", "")
+        rows.append([name, repr(getattr(model, name, None)), text])
     return table(rows, "llw")
 
 
-def parameters(translation: Translation) -> str:
-    """Parameters with their defaults and units; equal ones of an array's members stand together."""
+def parameters(translation: Translation, given: Mapping[str, float | str]) -> str:
+    """Parameters with their values and units; equal ones of an array's members stand together."""
     table_of = translation.dae.parameters
-    pairs = zip(table_of.infos, table_of.vector().tolist(), strict=True)
+    pairs = zip(table_of.infos, table_of.vector(given).tolist(), strict=True)
     rows = []
     for name, members in alike((info.path, (info, value)) for info, value in pairs):
         equal = len({value for _, value in members}) == 1

@@ -5,7 +5,8 @@ from __future__ import annotations
 import functools
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext, redirect_stdout
 from typing import ParamSpec, TypeVar
 
 import typer
@@ -33,11 +34,9 @@ def reported(command: Callable[P, R]) -> Callable[P, R]:
         except KeyboardInterrupt:
             complain("interrupted")
             raise typer.Exit(INTERRUPTED) from None
-        except (typer.Exit, typer.Abort, BrokenPipeError):
+        except (typer.Exit, typer.Abort, typer.BadParameter, BrokenPipeError):
             raise
         except Exception as error:
-            if isinstance(error, typer.BadParameter):
-                raise
             if kwargs.get("debug"):
                 traceback.print_exc()
             complain(
@@ -47,6 +46,13 @@ def reported(command: Callable[P, R]) -> Callable[P, R]:
             raise typer.Exit(FAILED) from None
 
     return run
+
+
+@contextmanager
+def quiet(wanted: bool) -> Iterator[None]:
+    """Send to standard error what models print, where standard output is for one object alone."""
+    with redirect_stdout(sys.stderr) if wanted else nullcontext():
+        yield
 
 
 def complain(message: str, hint: bool = False) -> None:

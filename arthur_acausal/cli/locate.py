@@ -11,7 +11,7 @@ import traceback
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 from arthur_acausal.cli.settings import read_settings
 from arthur_acausal.errors import ArthurError, UsageError, nearest
@@ -44,15 +44,19 @@ def find_model(text: str) -> type[Any]:
     return pick(load_module(source), name, text)
 
 
-def build_model(text: str, settings: Iterable[str]) -> tuple[Any, dict[str, float | str]]:
-    """Make the model that ``text`` names, with the structural parameters among ``settings``; return it and
-    the rest.
+class Built(NamedTuple):
+    """A model made for a command: the short name it was called by ("" if none), parameter values by path."""
 
-    The rest are parameter values by path, for the simulation.
-    """
+    model: Any
+    name: str
+    parameters: dict[str, float | str]
+
+
+def build_model(text: str, settings: Iterable[str]) -> Built:
+    """Make the model that ``text`` names, with the structural parameters among ``settings``."""
     kind = find_model(text)
     structural, parameters = read_settings(kind, settings)
-    return kind(**structural), parameters
+    return Built(kind(**structural), text if text in short_names() else "", parameters)
 
 
 def short_names() -> Mapping[str, str]:
@@ -76,7 +80,7 @@ def load_module(name: str) -> ModuleType:
         raise broken(name, error) from error
     except ArthurError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise broken(name, error) from error
 
 
@@ -96,12 +100,12 @@ def load_file(path: Path) -> ModuleType:
         spec.loader.exec_module(module)
     except ArthurError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise broken(str(path), error) from error
     return module
 
 
-def broken(source: str, error: Exception) -> UsageError:
+def broken(source: str, error: BaseException) -> UsageError:
     """The error for a file or module that raises while it is imported."""
     if isinstance(error, SyntaxError):
         where = f"{Path(error.filename or source).name}:{error.lineno}"

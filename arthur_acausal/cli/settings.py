@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import inspect
 import re
+import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, get_type_hints
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from arthur_acausal.errors import UsageError, nearest
 
@@ -57,9 +58,21 @@ def structural_parameters(model: type[Any]) -> Mapping[str, Any]:
     return declared
 
 
+def annotation(model: type[Any], name: str) -> Any:
+    """The type of a structural parameter; that of its default where the annotation cannot be evaluated."""
+    owner = next(kind for kind in model.__mro__ if name in vars(kind).get("__annotations__", {}))
+    declared = vars(owner)["__annotations__"][name]
+    if not isinstance(declared, str):
+        return declared
+    try:
+        return eval(declared, dict(vars(sys.modules[owner.__module__])))
+    except NameError:  # a name that is imported for type checkers only
+        return type(structural_parameters(model)[name])
+
+
 def convert(model: type[Any], name: str, text: str) -> Any:
     """Read a structural parameter by its annotation: bool, int, float, str, a Literal, or None besides."""
-    wanted = get_type_hints(model).get(name, str)
+    wanted = annotation(model, name)
     choices = getattr(wanted, "__args__", ())
     if text.lower() == "none" and type(None) in choices:
         return None
@@ -113,7 +126,8 @@ def read_inputs(texts: Iterable[str], units: Mapping[str, str]) -> dict[str, Inp
         if path not in units:
             known = f"it has {', '.join(units)}" if units else "it has none"
             raise UsageError(f"the model has no input {path!r}", remedy=nearest(path, units) or known)
-        if NUMBER.fullmatch(text) and not Path(text).is_file():
+        is_file = any(Path(name).is_file() for name in (text, text.rpartition(":")[0]))
+        if NUMBER.fullmatch(text) and not is_file:
             inputs[path] = to_si(quantity(text, "--input"), units[path], path=path)
         else:
             inputs[path] = read_column(text)
@@ -124,8 +138,7 @@ def read_column(text: str) -> Input:
     """A column of a CSV file over its column "time": "file.csv:column", or "file.csv" if it has no other."""
     from arthur_acausal.solve.table import Table
 
-    file, _, column = text.rpartition(":") if not Path(text).is_file() else (text, "", "")
-    if not file:
-        file = text
-        column = ""
-    return Table.from_csv(file, column=column or None)
+    file, colon, column = text.rpartition(":")
+    if not colon or Path(text).is_file():
+        return Table.from_csv(text)
+    return Table.from_csv(file, column=column)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from arthur_acausal.cli import outcome, progress
-from arthur_acausal.cli.failure import note
+from arthur_acausal.cli.failure import note, quiet
 from arthur_acausal.cli.locate import build_model
 from arthur_acausal.cli.settings import assignments, quantity, read_inputs
 from arthur_acausal.errors import ArthurError, SimulationError, UsageError
@@ -45,41 +45,48 @@ class Request:
     as_json: bool = False
 
 
-def simulate(request: Request) -> None:
-    """Carry out ``arthur simulate``.
+def simulate(request: Request) -> str:
+    """Carry out ``arthur simulate``; return what is to be printed.
 
     Raises ArthurError or KeyboardInterrupt after what was computed up to there has been written.
     """
-    from arthur_acausal.api import translate
+    with quiet(request.as_json):
+        check_files(request)
+        translation, solution = compute(request)
+        try:
+            written = keep(request, translation, solution)
+        except ArthurError:
+            if not request.as_json:
+                typer.echo(told(request, translation, solution, []))  # a full disk should not cost the run
+            raise
+        return told(request, translation, solution, written)
+
+
+def check_files(request: Request) -> None:
+    """See before the run, not after it, that the files asked for can be written."""
     from arthur_acausal.result.atomic import check_place
     from arthur_acausal.result.plot import check_format
-    from arthur_acausal.result.simulated import Interrupted
 
     if request.picture is not None:
         check_format(request.picture)
     for file in (request.output, request.picture):
         if file is not None:
-            check_place(file)  # before the run, not after it
-    model, parameters = build_model(request.model, request.settings)
-    translation = translate(model, name=request.model if is_short(request.model) else "")
+            check_place(file)
+
+
+def compute(request: Request) -> tuple[Translation, Solution]:
+    """Translate and run; where the run stops early, write what was computed and raise what stopped it."""
+    from arthur_acausal.api import translate
+    from arthur_acausal.result.simulated import Interrupted
+
+    built = build_model(request.model, request.settings)
+    translation = translate(built.model, name=built.name)
     try:
-        solution = run(request, translation, parameters)
+        return translation, run(request, translation, built.parameters)
     except (SimulationError, Interrupted) as stopped:
         if stopped.solution is not None:
             keep_part(request, translation, stopped.solution)
         raise
-    try:
-        written = keep(request, translation, solution)
-    except ArthurError:
-        if not request.as_json:
-            tell(request, translation, solution, [])  # a full disk should not cost the run
-        raise
-    tell(request, translation, solution, written)
-
-
-def is_short(model: str) -> bool:
-    """Whether a model is named by its short name."""
-    return ":" not in model and not model.endswith(".py")
 
 
 def run(request: Request, translation: Translation, parameters: dict[str, float | str]) -> Solution:
@@ -161,19 +168,18 @@ def first_of_each_unit(solution: Solution, paths: Sequence[str]) -> list[str]:
     return [path for members in chosen.values() for path in members[:MOST_LINES]]
 
 
-def tell(request: Request, translation: Translation, solution: Solution, written: Sequence[str]) -> None:
-    """Print what came out."""
+def told(request: Request, translation: Translation, solution: Solution, written: Sequence[str]) -> str:
+    """The object or the text that tells what came out."""
     translation_s = sum(translation.seconds.values())
     verified = translation.verify(solution) if request.verify else None
     if request.as_json:
         extras: dict[str, Any] = {"translation_s": translation_s}
         if verified is not None:
             extras["verify"] = {"worst": verified.largest, "path": verified.path}
-        typer.echo(json.dumps(outcome.as_object(solution, extras), ensure_ascii=False))
-        return
+        return json.dumps(outcome.as_object(solution, extras), ensure_ascii=False)
     sections = [outcome.as_text(solution, translation_s)]
     if verified is not None:
         sections.append(outcome.verification(verified))
     if written:
         sections.append("\n".join(f"wrote {line}" for line in written))
-    typer.echo("\n\n".join(sections))
+    return "\n\n".join(sections)

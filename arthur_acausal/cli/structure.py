@@ -7,13 +7,26 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from arthur_acausal.cli.alike import names
+from arthur_acausal.cli.settings import structural_parameters
 from arthur_acausal.cli.table import count, table, wrap
+from arthur_acausal.errors import UsageError, nearest
 
 if TYPE_CHECKING:
+    from arthur_acausal.cli.locate import Built
     from arthur_acausal.transform.structured import StructureReport
 
 LISTED = 24  # names of a long list that are shown; --json has all
 LARGEST = 5  # blocks
+
+
+def only_structural(built: Built) -> None:
+    """Refuse parameter values: they do not change the structure, and would be ignored."""
+    for path in built.parameters:
+        known = structural_parameters(type(built.model))
+        raise UsageError(
+            f"--set {path}: {path} is no structural parameter of {type(built.model).__name__}",
+            remedy=nearest(path, known) or (f"it has {', '.join(known)}" if known else "it has none"),
+        )
 
 
 def as_object(report: StructureReport) -> dict[str, Any]:

@@ -101,6 +101,21 @@ def test_check_tells_people_the_same(arthur: Arthur) -> None:
     assert max(map(len, result.stdout.splitlines())) <= 80
 
 
+def test_what_is_set_shows_in_info_and_must_be_structural_in_check(arthur: Arthur, ball: str) -> None:
+    assert re.search(r"g +2 +m/s²", arthur("info", ball, "--set", "g=2", "--set", "height=3").stdout)
+    assert "no parameter 'gg'" in arthur("info", ball, "--set", "gg=2").stderr
+    result = arthur("check", ball, "--set", "g=2")
+    assert result.exit_code == 1 and "g is no structural parameter of Ball" in result.stderr
+
+
+def test_what_a_model_prints_does_not_disturb_json(arthur: Arthur, models: Path) -> None:
+    models.write_text(models.read_text() + "\nprint('hello')\n")
+    for command in ("check", "simulate"):
+        result = arthur(command, f"{models}:Ball", "--json")
+        only_json(result)
+        assert "hello" in result.stderr
+
+
 # --- simulate
 
 

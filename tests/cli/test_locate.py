@@ -91,6 +91,7 @@ def test_what_is_not_there(tank: Path, text: str, message: str) -> None:
     [
         ("x = [1, 2\n", r"bad\.py is not valid Python|\(bad\.py:1\)"),
         ("x = 1\n1 / 0\n", r"\(bad\.py:2\): .*bad\.py cannot be imported[\s\S]*ZeroDivisionError"),
+        ("import sys\nsys.exit(3)\n", r"\(bad\.py:2\)[\s\S]*SystemExit: 3"),
         ("import no_such_thing\n", r"\(bad\.py:1\)[\s\S]*No module named 'no_such_thing'"),
         ("x = 1\n", r"does not say which model[\s\S]*no subclass of Component"),
         (TANK + "\nclass Other(Tank): pass\n", r"it defines Tank, Other[\s\S]*bad\.py:Class"),

@@ -48,6 +48,13 @@ def test_structural_parameters_get_their_type(text: str, name: str, value: objec
     assert settings.parameters == {}
 
 
+def test_structural_parameters_are_inherited() -> None:
+    class Special(Rig):
+        pass
+
+    assert read_settings(Special, ["n=3", "law=smooth"]).structural == {"n": 3, "law": "smooth"}
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -91,13 +98,16 @@ def test_constant_inputs() -> None:
     assert inputs("valves[0].I=20mA", "motor.V=24") == {"valves[0].I": pytest.approx(0.02), "motor.V": 24.0}
 
 
-def test_columns_of_csv_files(tmp_path: Path) -> None:
+def test_columns_of_csv_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "run.csv"
     file.write_text("time,current,voltage\n0,1,20\n1,2,24\n")
     table = inputs(f"motor.V={file}:voltage")["motor.V"]
     assert isinstance(table, Table)
     np.testing.assert_array_equal(table.values, [20.0, 24.0])
+    file = file.rename(tmp_path / "2.csv")
     file.write_text("time,current\n0,1\n1,2\n")
+    monkeypatch.chdir(tmp_path)
+    np.testing.assert_array_equal(inputs("motor.V=2.csv:current")["motor.V"].values, [1.0, 2.0])
     np.testing.assert_array_equal(inputs(f"motor.V={file}")["motor.V"].values, [1.0, 2.0])
 
 
