@@ -115,9 +115,9 @@ class EventIteration:
         evaluator, system = self._evaluator, self._system
         if not system.size:
             return np.zeros(0)
-        if self._factors is None:
-            self._solve(Outcome())
-            assert self._factors is not None
+        factors, self._factors = self._factors or self._factorised(), None
+        if factors is None:
+            return None
         t = float(evaluator.t[0])
         speed = np.abs(evaluator.yp[system.states]) / np.maximum(
             np.abs(evaluator.y[system.states]), system.nominal[system.states]
@@ -125,10 +125,9 @@ class EventIteration:
         ahead = DIFFERENCE * min(duration, 1.0 / max(float(speed.max(initial=0.0)), TINY))
         evaluator.t[0] = t + ahead
         refresh(t + ahead)
-        rates = system.rates(self._factors, ahead)
+        rates = system.rates(factors, ahead)
         evaluator.t[0] = t
         refresh(t)
-        self._factors = None
         if not np.isfinite(rates).all():
             return None
         evaluator.yp[system.free] = rates[: system.free.size]
@@ -191,7 +190,7 @@ class EventIteration:
                 outcome.terminate = a.message
         for number in np.flatnonzero(rising).tolist():
             when = dae.whens[number]
-            outcome.events.append(Event(float(evaluator.t[0]), when.label, when.where, "when"))
+            outcome.events.append(Event(float(evaluator.t[0]), when.label, kind="when", where=when.where))
         return reset or not np.array_equal(before, evaluator.z), reset
 
     def _solve(self, outcome: Outcome) -> None:
@@ -204,6 +203,14 @@ class EventIteration:
         if solved.reason:
             raise failure(self._dae, self._evaluator, self._system, solved, AFTER)
 
+    def _factorised(self) -> Solve | None:
+        """Factors at the present values, which stay as they are; None if they are singular."""
+        evaluator = self._evaluator
+        y, yp = evaluator.y.copy(), evaluator.yp.copy()
+        solved = self._system.solve(self._options.newton_tolerance, self._options.newton_iterations)
+        evaluator.y[:], evaluator.yp[:] = y, yp
+        return None if solved.reason else solved.factors
+
     def _relation_events(self, before: BoolArray, flagged: Mapping[int, bool], outcome: Outcome) -> None:
         """One entry for each relation that was known to change or has changed."""
         after = self._evaluator.m > 0.5
@@ -213,7 +220,8 @@ class EventIteration:
         for k, value in sorted(changes.items()):
             relation = self._dae.relations[k]
             what = f"{relation.label} became {'true' if value else 'false'}"
-            entries.append(Event(t, what, relation.where, "time" if self._scheduled[k] else "state"))
+            kind = "time" if self._scheduled[k] else "state"
+            entries.append(Event(t, what, kind=kind, where=relation.where))
         outcome.events[:0] = entries
 
     def _unsettled(self, moving: Index) -> SimulationError:

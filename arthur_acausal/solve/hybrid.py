@@ -11,6 +11,7 @@ import numpy as np
 from arthur_acausal.errors import SimulationError
 from arthur_acausal.solve.accumulation import Accumulation
 from arthur_acausal.solve.callbacks import Monitor, Progress, Roots
+from arthur_acausal.solve.diagnosis import listed
 from arthur_acausal.solve.events import EventIteration
 from arthur_acausal.solve.failure import integration_failure, suspect, too_many_steps
 from arthur_acausal.solve.ida import Ida, Stretch
@@ -73,6 +74,7 @@ class HybridRun:
         self._events: list[Event] = []
         self._ended: tuple[Status, str] | None = None
         self._stepping = self._affected = False
+        self._starts = 0
 
     def initialize(self) -> None:
         """Find consistent values at the start."""
@@ -144,7 +146,7 @@ class HybridRun:
         else:
             self._engine.forget()
             first_step = self._first_step(stop - float(times[0]))
-            self._statistics.restarts += 1
+            self._starts += 1
         y, yp = self._evaluator.y.copy(), self._evaluator.yp.copy()
         return method(times, y, yp, first_step, store_steps)
 
@@ -237,8 +239,16 @@ class HybridRun:
         s.steps, s.rejected_steps = counts.steps, counts.rejected
         s.residual_evaluations, s.jacobian_evaluations = counts.residuals, counts.jacobians
         s.root_evaluations, s.non_finite_residuals = counts.roots, counts.non_finite
+        s.restarts = max(self._starts - 1, 0)
         s.output_s = perf_counter() - before
         s.total_s = perf_counter() - self._begun
+        if counts.offence is not None and status == "finished":
+            rows: list[int] = counts.offence.rows.tolist()
+            labels = listed([self._dae.row_labels[i] for i in rows], "; ")
+            s.messages.append(
+                f"{counts.non_finite} trial states had no finite residual, and shorter steps went round them; "
+                f"one at t = {counts.offence.t:.6g} s: {labels}"
+            )
         return Trajectory(
             t,
             y,

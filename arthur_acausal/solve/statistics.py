@@ -22,7 +22,7 @@ class Statistics:
     jacobian_evaluations : by IDA; each is followed by one factorisation.
     root_evaluations : evaluations of the relations that make state events.
     non_finite_residuals : residual evaluations with a value that is no finite number.
-    restarts : how often integration started, at the beginning and after events that change the equations.
+    restarts : how often integration started anew after an event; events that change no equation need none.
     events, state_events, time_events : instants at which something happened, and the two kinds.
     initial_iterations : Newton iterations of the initialisation.
     event_iterations : Newton iterations of all events.

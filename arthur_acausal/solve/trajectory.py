@@ -22,14 +22,16 @@ class Event:
     ----------
     time : s.
     what : in words.
-    path : the label of the relation or `when` clause.
-    kind : "state", "time", "input", "when" or "terminate".
+    path : the component or variable that it belongs to; may be empty where `what` names it.
+    kind : "state" or "time" (a relation changed), "when" (a clause acted) or "input" (a table jumps).
+    where : file and line of the relation or clause.
     """
 
     time: float
     what: str
     path: str = ""
     kind: str = ""
+    where: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import signal
+import sys
+import threading
 from typing import Any
 
 import casadi
@@ -58,6 +61,8 @@ def test_a_residual_without_value_on_the_way_is_no_failure() -> None:
     result = simulate(dae, stop_time=1.0, options=SolverOptions(rtol=1e-2, first_step=1.0))
     assert result.status == "finished"
     assert result.y[-1, 0] == pytest.approx(np.exp(-5.0), abs=2e-2)
+    assert result.statistics.non_finite_residuals > 0
+    assert "trial states had no finite residual" in result.statistics.messages[-1]
 
 
 def test_a_jacobian_that_becomes_singular_names_its_unknown() -> None:
@@ -90,7 +95,8 @@ def test_a_discontinuity_without_event_is_told_with_its_variable() -> None:
     assert kept.t[-1] == pytest.approx(0.5)
 
 
-def interrupted(t_stop: float) -> Handmade:
+def integrator() -> Handmade:
+    """x' = u from 0."""
     x, u = state("x", 0.0, fixed=True), external("u")
     return handmade([x, u], {"x": x.d - u.s})
 
@@ -98,11 +104,11 @@ def interrupted(t_stop: float) -> Handmade:
 def test_ctrl_c_keeps_what_was_computed() -> None:
     def one(t: float) -> float:
         if t > 0.5:
-            raise KeyboardInterrupt
+            signal.raise_signal(signal.SIGINT)
         return 1.0
 
     with pytest.raises(SolverInterrupted) as caught:
-        simulate(interrupted(0.5), stop_time=1.0, inputs={"u": one}, options=SolverOptions(max_step=0.01))
+        simulate(integrator(), stop_time=1.0, inputs={"u": one}, options=SolverOptions(max_step=0.01))
     kept = caught.value.trajectory
     assert isinstance(caught.value, KeyboardInterrupt)
     assert kept.status == "interrupted"
@@ -117,7 +123,7 @@ def test_errors_of_the_program_pass_through() -> None:
         return 1.0
 
     with pytest.raises(ZeroDivisionError, match="mine"):
-        simulate(interrupted(0.5), stop_time=1.0, inputs={"u": bad})
+        simulate(integrator(), stop_time=1.0, inputs={"u": bad})
 
 
 def test_prints_of_the_model_still_reach_the_screen(capsys: pytest.CaptureFixture[str]) -> None:
@@ -129,8 +135,25 @@ def test_prints_of_the_model_still_reach_the_screen(capsys: pytest.CaptureFixtur
             said.append(t)
         return 1.0
 
-    simulate(interrupted(0.5), stop_time=1.0, inputs={"u": chatty})
+    simulate(integrator(), stop_time=1.0, inputs={"u": chatty})
     assert capsys.readouterr().out == "hello\n"
+
+
+def test_runs_in_threads_give_standard_output_back() -> None:
+    x, a = state("x", 1.0, fixed=True), algebraic("a", 1.0)
+    dae = handmade([x, a], {"drain": x.d + 1.0, "jet": a.s - casadi.sqrt(x.s)})
+    before, messages = sys.stdout, []
+
+    def work() -> None:
+        messages.append(failed(dae)[0])
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert sys.stdout is before
+    assert len(messages) == 4 and all("jet" in told for told in messages)
 
 
 def test_a_zeno_run_ends_at_its_limit() -> None:
