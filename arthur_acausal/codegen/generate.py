@@ -29,6 +29,7 @@ from arthur_acausal.codegen.kernel import compile_functions
 from arthur_acausal.codegen.parameters import ParameterInfo, ParameterTable
 from arthur_acausal.codegen.recovery import Recovery, Source
 from arthur_acausal.codegen.starts import attribute_arrays, collect_starts
+from arthur_acausal.declare.scope import Declared
 from arthur_acausal.errors import ParameterError
 from arthur_acausal.graph import strongly_connected
 from arthur_acausal.transform.rows import Row
@@ -60,7 +61,7 @@ def generate(dae: StructuredDAE, *, compile: str = "auto") -> CompiledDAE:
         differential=as_bools([k < n_states for k in range(len(y_place))]),
         row_labels=assembly.row_labels,
         u_paths=[flat.variables[i].path for i in flat.inputs],
-        u_default=np.array([_number(flat.variables[i].value) for i in flat.inputs]),
+        u_default=np.array([_default(flat.variables[i]) for i in flat.inputs]),
         u_units=[flat.variables[i].quantity.unit for i in flat.inputs],
         z_paths=[d.path for d in flat.scope.discrete],
         nominal=nominal,
@@ -76,8 +77,16 @@ def generate(dae: StructuredDAE, *, compile: str = "auto") -> CompiledDAE:
     )
 
 
-def _number(value: Any) -> float:
-    return float(value) if value is not None else 0.0
+def _default(declared: Declared) -> float:
+    """Return the value of an external input that a run does not give."""
+    if isinstance(declared.value, SX) and not declared.value.is_constant():
+        raise ParameterError(
+            f"the default of an input is a number, not {declared.value}",
+            path=declared.path,
+            where=declared.where,
+            remedy="connect the input to an output that has this value",
+        )
+    return float(declared.value) if declared.value is not None else 0.0
 
 
 def _functions(
@@ -95,9 +104,10 @@ def _functions(
     conditions, values, whens, assignments = _whens(dae, before, y_place)
     initial, labels = _initial(dae, assembly, slots)
     slope = ca.horzcat(ca.jacobian(initial, a.y), ca.jacobian(initial, a.yp))
-    starts = [_start_value(dae, assembly, s.value) for s in slots]
+    starts = [_start_value(dae, assembly, s.value, s.path) for s in slots]
     starts += [
-        _start_value(dae, assembly, d.start.value if d.start else 0.0) for d in dae.flat.scope.discrete
+        _start_value(dae, assembly, d.start.value if d.start else 0.0, d.path)
+        for d in dae.flat.scope.discrete
     ]
     make = ca.Function
     functions = {
@@ -204,14 +214,14 @@ def _initial(dae: StructuredDAE, assembly: Assembly, slots: list[StartSlot]) -> 
     return _column(values), labels
 
 
-def _start_value(dae: StructuredDAE, assembly: Assembly, value: Any) -> SX:
+def _start_value(dae: StructuredDAE, assembly: Assembly, value: Any, path: str) -> SX:
     """Return a start value as an expression of p; parameters in it are looked up."""
     if value is None:
         return SX.nan()
-    return SX(value) if not isinstance(value, SX) else parameter_expression(dae, assembly, value)
+    return SX(value) if not isinstance(value, SX) else parameter_expression(dae, assembly, value, path)
 
 
-def parameter_expression(dae: StructuredDAE, assembly: Assembly, value: SX) -> SX:
+def parameter_expression(dae: StructuredDAE, assembly: Assembly, value: SX, path: str) -> SX:
     """Return an expression of the model's parameter symbols as one of the vector p."""
     symbols = ca.symvar(value)
     if not symbols:
@@ -221,7 +231,11 @@ def parameter_expression(dae: StructuredDAE, assembly: Assembly, value: SX) -> S
     for symbol in symbols:
         atom = dae.flat.scope.atom(symbol)
         if atom is None or atom.kind != "parameter":
-            raise ParameterError(f"{value} contains {symbol}, which is no parameter of this model")
+            raise ParameterError(
+                f"{value} contains {symbol}, which is no parameter of this model",
+                path=path,
+                remedy="compute it from parameters only, or declare a variable and an equation for it",
+            )
         replaced.append(p[assembly.parameter_place[dae.flat.parameter(atom.number)]])
     result: SX = ca.substitute(value, ca.vertcat(*symbols), ca.vertcat(*replaced))
     return result
@@ -265,7 +279,7 @@ def _parameter_table(dae: StructuredDAE, assembly: Assembly) -> ParameterTable:
         d = declared[i]
         symbolic = isinstance(d.value, SX) and not d.value.is_constant()
         if symbolic:
-            dependent.append((place[i], parameter_expression(dae, assembly, d.value)))
+            dependent.append((place[i], parameter_expression(dae, assembly, d.value, d.path)))
         q = d.quantity
         value = 0.0 if symbolic else float(d.value)
         infos.append(ParameterInfo(d.path, q.unit, value, symbolic, q.min, q.max, q.description, q.display))

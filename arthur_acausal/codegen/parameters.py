@@ -87,5 +87,6 @@ class ParameterTable:
                 raise ParameterError(
                     f"{value:g} {info.unit} is outside of [{low:g}, {high:g}]",
                     path=info.path,
-                    remedy=info.description or "choose a value within the bounds that the component declares",
+                    cause=f"it is: {info.description}" if info.description else "",
+                    remedy="choose a value within the bounds that the component declares",
                 )

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import inspect
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypeAlias, dataclass_transform
 
 from casadi import SX
 
+from arthur_acausal.declare.authored import calling_line
 from arthur_acausal.declare.quantity import Real, parameter
 from arthur_acausal.declare.scope import Scope
 from arthur_acausal.errors import DeclarationError, nearest
@@ -41,6 +41,7 @@ class Binding:
     depth: int
     children: list[Model] = field(default_factory=list)
     explicit: set[str] = field(default_factory=set)  # parts that the caller gave
+    complete: bool = False  # all parts are made: build() is over
 
 
 def _is_class_variable(annotation: Any) -> bool:
@@ -73,7 +74,9 @@ def _collect(cls: type) -> Declarations:
                 structural[name] = value
             elif name in parts or name in quantities:
                 raise DeclarationError(
-                    f"{cls.__name__}.{name} hides a declared quantity or part", path=cls.__name__
+                    f"{cls.__name__}.{name} hides a declared quantity or part",
+                    where=calling_line(),
+                    remedy=f"declare it anew, with its annotation: {name}: ... = ..., or choose another name",
                 )
     counts = {"variable": 0, "parameter": 0, "discrete": 0}
     slot: dict[str, int] = {}
@@ -97,7 +100,7 @@ class Model:
 
     def __init__(self, **modifications: Any) -> None:
         declared = self._declarations
-        where = _caller()
+        where = calling_line()
         for name in modifications:
             if name in declared.fixed:
                 raise DeclarationError(
@@ -128,9 +131,9 @@ class Model:
             if isinstance(value, int | float):
                 return SX(value)
             raise DeclarationError(
-                f"{type(self).__name__}.{quantity.name} has no symbol yet",
-                where=self._where,
-                cause="the component is not part of a model: its symbols exist inside build() and equations()",
+                f"{type(self).__name__}.{quantity.name} has no symbol here",
+                cause=f"the {type(self).__name__} made at {self._where} is not part of the model",
+                remedy="make it a part, in the class body or in build(); equations use their component and its parts",
             )
         return binding.scope.symbol(
             quantity.space, binding.first[quantity.space] + self._declarations.slot[quantity.name]
@@ -141,10 +144,9 @@ class Model:
         return f"<{type(self).__name__}{place}>"
 
 
-def _caller() -> str:
-    """Return file:line of the code that makes the component, outside of this package's declare layer."""
-    frame = sys._getframe(2)
-    return f"{frame.f_code.co_filename.rsplit('/', 1)[-1]}:{frame.f_lineno}"
+def title_of(model: Model) -> str:
+    """Return what messages call an instance: its path, or its class where it is a whole model."""
+    return (model._binding.path if model._binding else "") or type(model).__name__
 
 
 @dataclass_transform(kw_only_default=True, field_specifiers=(parameter,))
@@ -167,14 +169,13 @@ class Component(Model):
         yield from ()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        binding = self._binding
-        is_list = isinstance(value, list) and bool(value) and all(isinstance(item, Model) for item in value)
+        is_list = isinstance(value, list | tuple) and any(isinstance(item, Model) for item in value)
         if isinstance(value, Model) or is_list:
-            if binding is None:
-                raise DeclarationError(
-                    f"{type(self).__name__}.{name}: parts are made in the class body or in build()"
-                )
-            value = _adopt(self, name, value)
+            from arthur_acausal.declare.bind import (
+                adopt,
+            )  # which binds instances of the classes of this module
+
+            value = adopt(self, name, value)
         object.__setattr__(self, name, value)
 
 
@@ -191,120 +192,3 @@ class Connector(Model):
 @dataclass_transform(kw_only_default=True, field_specifiers=(parameter,))
 class Record(Model):
     """A named set of parameters that several components may share."""
-
-
-def bind(template: Model, name: str, scope: Scope, owner: Model | None) -> Model:
-    """Return an instance of ``template`` at ``owner.name`` in ``scope``, with everything below it.
-
-    Its own quantities are numbered first, then those of its parts in order: a component without parts of its own
-    kind takes consecutive numbers, whatever its place.
-    """
-    if template._binding is not None:
-        raise DeclarationError(
-            f"one {type(template).__name__} is used at two places: {template._binding.path} and {name}",
-            path=owner._binding.path if owner and owner._binding else "",
-            where=template._where,
-            remedy="make one component for each place; only a Record may be shared",
-        )
-    above = owner._binding if owner is not None else None
-    path = f"{above.path}.{name}" if above and above.path else name
-    bound = type(template).__new__(type(template))
-    binding = Binding(
-        scope,
-        path,
-        {"variable": len(scope.variable), "parameter": len(scope.parameter), "discrete": len(scope.discrete)},
-        owner,
-        above.depth + 1 if above else 0,
-    )
-    bound.__dict__.update(template.__dict__)
-    bound.__dict__["_binding"] = binding
-    _check_structural(bound, path)
-    _number_quantities(bound, binding)
-    for part, default in bound._declarations.parts.items():
-        given = bound._modifications.get(part, default)
-        if part in bound._modifications:
-            binding.explicit.add(part)
-        bound.__dict__[part] = _bind_part(
-            bound, part, given, owner if part in bound._modifications else bound
-        )
-    if isinstance(bound, Component):
-        bound.build()
-    return bound
-
-
-def _adopt(owner: Model, name: str, value: Any) -> Any:
-    if isinstance(value, list):
-        return [_bind_part(owner, f"{name}[{i}]", item, owner) for i, item in enumerate(value)]
-    return _bind_part(owner, name, value, owner)
-
-
-def _bind_part(owner: Model, name: str, given: Any, author: Model | None) -> Model:
-    """Bind one part below ``owner``; a record that already has its place is shared.
-
-    ``author`` is the instance in whose class the part was written: there, one component object has one place.
-    """
-    binding = owner._binding
-    assert binding is not None
-    if callable(given) and not isinstance(given, Model):
-        given = given(binding.owner)
-    if not isinstance(given, Model):
-        raise DeclarationError(
-            f"{type(owner).__name__}.{name} must be a component, connector or record, not {given!r}",
-            path=binding.path,
-            where=owner._where,
-        )
-    if isinstance(given, Record) and given._binding is not None:
-        # numbered anew, so that a class's numbering is the same everywhere; its values are those of the shared one
-        part = bind(_unbound(given), name, binding.scope, owner)
-        binding.scope.shared.append((part, given))
-        binding.explicit.add(name)
-        binding.children.append(part)
-        return part
-    part = bind(given, name, binding.scope, owner)
-    if not isinstance(given, Record):
-        earlier, _ = binding.scope.places.setdefault(
-            (id(given), id(author)), (part, given)
-        )  # kept: ids stay unique
-        if earlier is not part:
-            assert earlier._binding is not None and part._binding is not None
-            raise DeclarationError(
-                f"one {type(given).__name__} is used at two places: {earlier._binding.path} and {part._binding.path}",
-                where=given._where,
-                remedy="make one component for each place; only a Record may be shared",
-            )
-    binding.children.append(part)
-    return part
-
-
-def _unbound(record: Record) -> Record:
-    copy = type(record).__new__(type(record))
-    copy.__dict__.update(
-        {k: v for k, v in record.__dict__.items() if not isinstance(v, Model)}, _binding=None
-    )
-    copy.__dict__["_modifications"] = dict.fromkeys(
-        (n for n, q in record._declarations.quantities.items() if q.kind == "parameter"), 0.0
-    ) | {n: v for n, v in record._modifications.items() if n in record._declarations.structural}
-    return copy
-
-
-def _check_structural(bound: Model, path: str) -> None:
-    missing = [
-        n for n, d in bound._declarations.structural.items() if d is MISSING and n not in bound._modifications
-    ]
-    if missing:
-        raise DeclarationError(
-            f"{type(bound).__name__} needs {', '.join(missing)}",
-            path=path,
-            where=bound._where,
-            remedy=f"give it: {type(bound).__name__}({missing[0]}=...)",
-        )
-
-
-def _number_quantities(bound: Model, binding: Binding) -> None:
-    from arthur_acausal.declare.modify import declared
-
-    prefix = f"{binding.path}." if binding.path else ""
-    scope = binding.scope
-    for name, quantity in bound._declarations.quantities.items():
-        entry = declared(bound, prefix + name, quantity, bound._modifications.get(name, MISSING))
-        getattr(scope, quantity.space).append(entry)

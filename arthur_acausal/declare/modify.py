@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from typing import Any
 
 from casadi import SX
 
+from arthur_acausal.declare.authored import authored
 from arthur_acausal.declare.model import MISSING, Binding, Model
 from arthur_acausal.declare.quantity import Real, Start
-from arthur_acausal.declare.scope import Declared, using
+from arthur_acausal.declare.scope import Declared, Later, Scope
 from arthur_acausal.errors import ArthurError, DeclarationError, ParameterError
 from arthur_acausal.units import to_si
 
@@ -19,23 +22,22 @@ def declared(bound: Model, path: str, quantity: Real, modification: Any) -> Decl
     assert binding is not None
     if quantity.kind in ("parameter", "input"):
         return _valued(bound, binding, path, quantity, modification)
+    entry = Declared(path, quantity, depth=binding.depth + 1, where=bound._where)
     if modification is MISSING:
-        begin = (
-            Start(quantity.start, quantity.fixed) if quantity.start is not None or quantity.fixed else None
-        )
-        own = (
-            None if begin is None else Start(_resolve(begin.value, quantity, path, bound, bound), begin.fixed)
-        )
-        return Declared(path, quantity, start=own, depth=binding.depth + 1)
+        if quantity.start is not None or quantity.fixed:
+            entry.start = Start(_resolved(quantity.start, entry, bound, bound), quantity.fixed)
+        return entry
     given = modification if isinstance(modification, Start) else Start(modification)
     first = given.value if given.value is not None else quantity.start
     source = binding.owner if given.value is not None else bound
     fixed = quantity.fixed if given.fixed is None else given.fixed
-    value = Start(_resolve(first, quantity, path, bound, source), fixed, given.nominal)
-    return Declared(path, quantity, start=value, depth=binding.depth)
+    entry.depth = binding.depth
+    entry.start = Start(_resolved(first, entry, bound, source), fixed, given.nominal)
+    return entry
 
 
 def _valued(bound: Model, binding: Binding, path: str, quantity: Real, modification: Any) -> Declared:
+    entry = Declared(path, quantity, depth=binding.depth, where=bound._where)
     if modification is MISSING:
         if quantity.default is None and quantity.kind == "parameter":
             raise ParameterError(
@@ -44,35 +46,72 @@ def _valued(bound: Model, binding: Binding, path: str, quantity: Real, modificat
                 where=bound._where,
                 remedy=f"give it: {type(bound).__name__}({quantity.name}=...)",
             )
-        return Declared(
-            path, quantity, _resolve(quantity.default, quantity, path, bound, bound), depth=binding.depth + 1
-        )
+        entry.depth = binding.depth + 1
+        entry.value = _resolved(quantity.default, entry, bound, bound)
+        return entry
     if isinstance(modification, Start):
         raise ParameterError(
-            f"a {quantity.kind} takes a value, not start(...)", path=path, where=bound._where
+            f"a{'n' if quantity.kind == 'input' else ''} {quantity.kind} takes a value, not start(...)",
+            path=path,
+            where=bound._where,
+            remedy=f"write {type(bound).__name__}({quantity.name}=value)",
         )
-    return Declared(
-        path, quantity, _resolve(modification, quantity, path, bound, binding.owner), depth=binding.depth
-    )
+    entry.value = _resolved(modification, entry, bound, binding.owner)
+    return entry
 
 
-def _resolve(value: Any, quantity: Real, path: str, bound: Model, source: Model | None) -> Any:
-    """Return a float in SI or an SX of parameters; functions are called with ``source``, their component."""
-    if value is None or isinstance(value, float):
+def _resolved(value: Any, entry: Declared, bound: Model, source: Model | None) -> Any:
+    """Return a float in SI or an SX of parameters; None for now if it is a function of ``source``."""
+    if not callable(value) or hasattr(value, "dimensionality") or isinstance(value, SX):
+        return _plain(value, entry)
+    if source is None:
+        raise DeclarationError(
+            "a function has no owner here that it could be called with",
+            path=entry.path,
+            where=bound._where,
+            remedy="give a number, or let another component own this one",
+        )
+    assert bound._binding is not None
+    bound._binding.scope.later.append(Later(entry, value, bound, source))
+    return None
+
+
+def settle(scope: Scope) -> None:
+    """Call the functions that values were given as, now that all parts that they may use are there."""
+    for entry, function, bound, source in scope.later:
+        with authored(f"the function for {entry.quantity.name}", entry.path, bound._where):
+            value = _plain(function(source), entry)
+        if entry.quantity.kind in ("parameter", "input"):
+            entry.value = value
+        else:
+            assert entry.start is not None
+            entry.start = replace(entry.start, value=value)
+    scope.later.clear()
+
+
+def _plain(value: Any, entry: Declared) -> Any:
+    """Return a value as a float in SI, within its bounds, or as an SX of parameters."""
+    if value is None or isinstance(value, SX):
         return value
-    if isinstance(value, SX):
-        return value
-    if callable(value) and not hasattr(value, "dimensionality"):
-        if source is None:
-            raise DeclarationError(
-                "a function needs an owner to be called with", path=path, where=bound._where
-            )
-        binding = bound._binding
-        assert binding is not None
-        with using(binding.scope):
-            return _resolve(value(source), quantity, path, bound, None)
     try:
-        return to_si(value, quantity.unit, path=path)
+        number = to_si(value, entry.quantity.unit, path=entry.path)
     except ArthurError as error:
-        error.where = error.where or bound._where
+        error.where = error.where or entry.where
         raise
+    if entry.quantity.kind == "parameter":
+        _check_bounds(number, entry)
+    return number
+
+
+def _check_bounds(value: float, entry: Declared) -> None:
+    quantity = entry.quantity
+    low = -math.inf if quantity.min is None else quantity.min
+    high = math.inf if quantity.max is None else quantity.max
+    if not low <= value <= high:
+        raise ParameterError(
+            f"{value:g} {quantity.unit} is outside of [{low:g}, {high:g}]",
+            path=entry.path,
+            where=entry.where,
+            cause=f"it is: {quantity.description}" if quantity.description else "",
+            remedy="choose a value within the bounds that the component declares",
+        )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
@@ -32,6 +32,16 @@ class Declared:
     value: Any = None
     start: Start | None = None
     depth: int = 0  # of the modification's owner; 0 is the root: the outermost modification wins
+    where: str = ""  # file:line of the component that it belongs to
+
+
+class Later(NamedTuple):
+    """A value given as a function of the component ``source``: it is called when all parts are there."""
+
+    entry: Declared
+    function: Callable[[Any], Any]
+    bound: Any
+    source: Any
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +68,8 @@ class Scope:
     shared: list[tuple[Any, Any]] = field(
         default_factory=list
     )  # (record of a component, the record that it stands for)
-    where: str = ""  # file:line of the statement that is being made
+    later: list[Later] = field(default_factory=list)
+    prefix: str = ""  # of all paths, left out in names: a component class reads the same in all its places
     makes_events: bool = True
     _symbols: dict[Atom, SX] = field(default_factory=dict)
     _atoms: dict[int, Atom] = field(default_factory=dict)
@@ -77,15 +88,19 @@ class Scope:
         """Return how people read an atom."""
         match atom.kind:
             case "der":
-                return f"der({self.variable[atom.number].path})"
+                return f"der({self.short(self.variable[atom.number].path)})"
             case "pre":
-                return f"pre({self.discrete[atom.number].path})"
+                return f"pre({self.short(self.discrete[atom.number].path)})"
             case "mode":
                 return f"relation[{atom.number}]"
             case "time":
                 return "time"
             case _:
-                return str(getattr(self, atom.kind)[atom.number].path)
+                return self.short(getattr(self, atom.kind)[atom.number].path)
+
+    def short(self, path: str) -> str:
+        """Return a path as seen from the scope's root."""
+        return path.removeprefix(self.prefix)
 
     def atom(self, symbol: SX) -> Atom | None:
         """Return what a symbol stands for; None if it is not a plain symbol of this scope."""

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 import casadi as ca
 from casadi import SX
 
-from arthur_acausal.declare.model import Connector
+from arthur_acausal.declare.model import Connector, Model
 from arthur_acausal.declare.scope import Relation, Scope, current_scope
 from arthur_acausal.errors import DeclarationError
 
@@ -58,7 +58,7 @@ def der(x: SX) -> SX:
     if atom is not None and atom.kind == "variable":
         return scope.symbol("der", atom.number)
     if not isinstance(x, SX):
-        raise DeclarationError("der() takes a variable or an expression of variables", where=scope.where)
+        raise DeclarationError(f"der() takes a variable or an expression of variables, not {x!r}")
     result = SX(0.0)
     for symbol in ca.symvar(x):
         found = scope.atom(symbol)
@@ -66,8 +66,7 @@ def der(x: SX) -> SX:
             continue
         if found.kind == "der":
             raise DeclarationError(
-                f"second derivative of {scope.variable[found.number].path}",
-                where=scope.where,
+                f"second derivative of {scope.name(found)[4:-1]}",
                 remedy="declare a variable for the first derivative: v == der(s), then der(v)",
             )
         rate = SX(1.0) if found.kind == "time" else scope.symbol("der", found.number)
@@ -80,7 +79,7 @@ def pre(x: SX) -> SX:
     scope = current_scope("pre()")
     atom = scope.atom(x)
     if atom is None or atom.kind not in ("discrete", "variable"):
-        raise DeclarationError("pre() takes a variable", where=scope.where)
+        raise DeclarationError("pre() takes a variable", remedy="apply it to each variable of the expression")
     return scope.symbol("pre", atom.number) if atom.kind == "discrete" else x
 
 
@@ -109,7 +108,7 @@ def event_condition(scope: Scope, condition: SX) -> SX:
     op = condition.op()
     if op in (ca.OP_LT, ca.OP_LE):
         left, right = condition.dep(0), condition.dep(1)
-        relation = Relation(right - left, op == ca.OP_LE, scope.where, str(condition))
+        relation = Relation(right - left, op == ca.OP_LE, "", str(condition))
         scope.relations.append(relation)
         return scope.symbol("mode", len(scope.relations) - 1)
     if op == ca.OP_NOT:
@@ -119,8 +118,7 @@ def event_condition(scope: Scope, condition: SX) -> SX:
         return ca.logic_and(*parts) if op == ca.OP_AND else ca.logic_or(*parts)
     raise DeclarationError(
         f"{condition} is no condition",
-        where=scope.where,
-        cause="a condition is made of <, <=, >, >= and casadi's logic_and, logic_or, logic_not",
+        remedy="a condition is made of <, <=, >, >= and casadi's logic_and, logic_or, logic_not",
     )
 
 
@@ -129,16 +127,30 @@ def connect(a: Any, b: Any) -> Connection:
     for side in (a, b):
         if not isinstance(side, Connector | SX):
             raise DeclarationError(
-                f"connect() takes connectors or signals, not {side!r}", where=current_scope("connect()").where
+                f"connect() takes connectors or signals, not {side!r}", remedy=_connectable(side)
             )
     return Connection(a, b)
+
+
+def _connectable(side: Any) -> str:
+    """Return a hint at what of ``side`` can be connected."""
+    if not isinstance(side, Model):
+        return "connect connectors (self.a.port), or an output with an input"
+    kinds = {"input", "output"}
+    names = [n for n, part in side._declarations.parts.items() if isinstance(part, Connector)]
+    names += [n for n, q in side._declarations.quantities.items() if q.kind in kinds]
+    return (
+        f"its connectors and signals are {', '.join(names)}" if names else "it has no connectors or signals"
+    )
 
 
 def when(condition: SX, *statements: Any) -> When:
     """At the moment when ``condition`` becomes true: ``reinit`` states, set discrete variables (``d == value``)."""
     scope = current_scope("when()")
     if not statements:
-        raise DeclarationError("when() without statements", where=scope.where)
+        raise DeclarationError(
+            "when() without statements", remedy="write what happens: when(condition, reinit(...), d == value)"
+        )
     return When(event_condition(scope, SX(condition)), statements)
 
 

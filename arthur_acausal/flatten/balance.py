@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from arthur_acausal.declare.model import Component, Connector, Model
+from arthur_acausal.declare.authored import defined_at
+from arthur_acausal.declare.model import Component, Connector, Model, title_of
 from arthur_acausal.errors import StructureError
-from arthur_acausal.flatten.block import Block
-from arthur_acausal.graph import matching
+from arthur_acausal.flatten.block import Block, Equation
+from arthur_acausal.graph import dulmage_mendelsohn, matching
+
+LISTED = 8  # unknowns in one message
 
 
 class Count(NamedTuple):
@@ -49,11 +52,11 @@ def parts_of(component: Component) -> list[Component]:
     return [c for c in component._binding.children if isinstance(c, Component)]
 
 
-def check_balance(component: Component, block: Block, connection_equations: int) -> None:
+def check_balance(component: Component, block: Block, connections: list[list[int]]) -> None:
     """Raise StructureError unless the component, with its flows and inputs given from outside, determines itself.
 
-    ``connection_equations``: potential equalities, flow sums (of connected and of unconnected part connectors) and
-    signal equalities that its own ``connect`` statements make.
+    ``connections``: the variables of each equation that its own ``connect`` statements make: potential equalities,
+    flow sums (of connected and of unconnected part connectors), signal equalities, and defaults of its parts' inputs.
     """
     own, outer = count([component]), count(list(connectors_of(component)))
     parts = parts_of(component)
@@ -66,57 +69,97 @@ def check_balance(component: Component, block: Block, connection_equations: int)
         + outer.flow
         + meeting.potential
         + signals.outputs
-        + connection_equations
+        + len(connections)
     )
-    if equations == unknowns:
-        return
-    what = f"{equations} equations for {unknowns} unknowns"
-    assert component._binding is not None
-    path = component._binding.path or type(component).__name__
-    surplus = equations > unknowns
-    raise StructureError(
-        f"{type(component).__name__} does not balance: {what}{_culprits(component, block, surplus)}",
-        path=path,
-        where=_place(block, component),
-        cause="one equation too many"
-        if equations == unknowns + 1
-        else ("too many equations" if surplus else "too few equations"),
-        remedy="remove one of the equations named"
-        if surplus
-        else "add an equation for what is not determined",
+    if equations != unknowns:
+        raise _unbalanced(component, block, connections, equations, unknowns)
+
+
+def _unbalanced(
+    component: Component, block: Block, connections: list[list[int]], equations: int, unknowns: int
+) -> StructureError:
+    over, missing = _culprits(component, block, connections)
+    if equations > unknowns:
+        told = "; ".join(f"{e.name} ({e.where})" for e in over)
+        culprits, remedy = f"surplus: {told}", "remove what is surplus, or an equation that says the same"
+        where = over[0].where if over else defined_at(type(component).equations)
+    else:
+        among = "" if len(missing) == unknowns - equations else f"{unknowns - equations} of "
+        culprits = f"not determined: {among}{', '.join(missing)}"
+        remedy = f"add an equation that determines {missing[0]}" if missing else "add an equation"
+        where = defined_at(type(component).equations)
+    number = abs(equations - unknowns)
+    few = "too many" if equations > unknowns else "too few"
+    return StructureError(
+        f"{type(component).__name__} does not balance by itself: {equations} equations for {unknowns} unknowns"
+        + (f"; {culprits}" if over or missing else ""),
+        path=title_of(component),
+        where=where,
+        cause=f"{number} equation{'s' if number > 1 else ''} {few}, with flows and inputs given from outside",
+        remedy=remedy,
     )
 
 
-def _place(block: Block, component: Component) -> str:
-    return block.equations[-1].where if block.equations else component._where
+def _culprits(
+    component: Component, block: Block, connections: list[list[int]]
+) -> tuple[list[Equation], list[str]]:
+    """Return the component's own equations that are surplus, and the unknowns that are not determined.
+
+    A part and the world outside can determine as many of the variables where they meet the component as the count
+    says; which ones is not known here, so that each such equation stands for all of them.
+    """
+    names, inside = _unknowns(component)
+    numbers = list(names)
+    column = {number: k for k, number in enumerate(numbers)}
+    rows = [[column[n]] for n in _numbers(component, ("input",))]
+    outer = [column[n] for c in connectors_of(component) for n in _numbers(c)]
+    rows += [outer] * sum(count([c]).flow for c in connectors_of(component))
+    for part in parts_of(component):
+        meeting = [column[n] for n in inside[id(part)]]
+        rows += [meeting] * (count([*connectors_of(part)]).potential + count([part]).outputs)
+    rows += [[column[n] for n in row] for row in connections]
+    own = len(rows)
+    within = {n: inside[id(part)] for part in parts_of(component) for n in _all_numbers(part)}
+    for equation in block.equations:
+        found = [a.number for a in equation.atoms if a.kind in ("variable", "der")]
+        rows.append(sorted({column[m] for n in found for m in ([n] if n in column else within.get(n, []))}))
+    assigned = matching(rows, len(numbers), matching(rows[:own], len(numbers)))  # what is given comes first
+    parts = dulmage_mendelsohn(rows, len(numbers), assigned)
+    over = [e for e, v in zip(block.equations, assigned[own:], strict=True) if v < 0]
+    return over, [names[numbers[k]] for k in parts.under_variables][:LISTED]
 
 
-def _culprits(component: Component, block: Block, surplus: bool) -> str:
-    """Name what a matching leaves over, with each flow and input taken as given; empty for hierarchical components."""
-    if parts_of(component):
-        return ""
+def _unknowns(component: Component) -> tuple[dict[int, str], dict[int, list[int]]]:
+    """Return number -> name of what the component determines, its own first; and what each part (id) meets it with."""
     binding = component._binding
     assert binding is not None
-    first = binding.first["variable"]
-    given: list[list[int]] = []
-    names: list[str] = []
-    for model in [component, *connectors_of(component)]:
-        prefix = "" if model is component else f"{model._binding.path.rpartition('.')[2]}."  # type: ignore[union-attr]
-        for q in model._declarations.quantities.values():
-            if q.space == "variable":
-                if q.kind in ("flow", "input"):
-                    given.append([len(names)])
-                names.append(prefix + q.name)
-    edges = [
-        sorted({a.number - first for a in e.atoms if a.kind in ("variable", "der")}) for e in block.equations
+    variable = binding.scope.variable
+    inside = {
+        id(part): [
+            *(n for c in connectors_of(part) for n in _numbers(c)),
+            *_numbers(part, ("input", "output")),
+        ]
+        for part in parts_of(component)
+    }
+    numbers = [
+        *_numbers(component),
+        *(n for c in connectors_of(component) for n in _numbers(c)),
+        *(n for meeting in inside.values() for n in meeting),
     ]
-    edges = [[v for v in row if 0 <= v < len(names)] for row in edges]
-    assigned = matching(given + edges, len(names))
-    if surplus:
-        over = [e for e, v in zip(block.equations, assigned[len(given) :], strict=True) if v < 0]
-        listed = ", ".join(
-            f'"{e.label}" ({e.where})' if e.label else f"{e.lhs} == {e.rhs} ({e.where})" for e in over
-        )
-        return f"; surplus: {listed}" if listed else ""
-    missing = [n for i, n in enumerate(names) if i not in set(assigned)]
-    return f"; not determined: {', '.join(missing)}" if missing else ""
+    prefix = f"{binding.path}." if binding.path else ""
+    return {n: variable[n].path.removeprefix(prefix) for n in numbers}, inside
+
+
+def _numbers(
+    model: Model, kinds: tuple[str, ...] = ("potential", "flow", "input", "output", "variable")
+) -> list[int]:
+    """Return the numbers of a model's own variables of some kinds."""
+    assert model._binding is not None
+    first, declared = model._binding.first["variable"], model._declarations
+    return [first + declared.slot[name] for name, q in declared.quantities.items() if q.kind in kinds]
+
+
+def _all_numbers(model: Model) -> list[int]:
+    """Return the numbers of all variables of a model and of everything below it."""
+    assert model._binding is not None
+    return _numbers(model) + [n for child in model._binding.children for n in _all_numbers(child)]

@@ -9,10 +9,14 @@ from typing import Any
 import casadi as ca
 from casadi import SX
 
-from arthur_acausal.declare.model import Component
+from arthur_acausal.declare.authored import authored, defined_at, place
+from arthur_acausal.declare.model import Component, title_of
 from arthur_acausal.declare.scope import Atom, Scope, using
 from arthur_acausal.declare.statement import Connection, Reinit, Terminate, When
-from arthur_acausal.errors import ArthurError, DeclarationError
+from arthur_acausal.errors import DeclarationError
+
+_OVER = object()
+SHOWN = 100  # characters of an equation that a message shows
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,13 +30,14 @@ class Expression:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Equation:
-    """``lhs == rhs``; ``residual`` is lhs - rhs."""
+    """``lhs == rhs``; ``residual`` is lhs - rhs. ``name`` is the label in quotes, or the beginning of the equation."""
 
     lhs: SX
     rhs: SX
     residual: Expression
     label: str
     where: str
+    name: str
 
     @property
     def symbols(self) -> list[SX]:
@@ -106,29 +111,20 @@ def run_block(component: Component, scope: Scope) -> Block:
 
 def _statements(component: Component, scope: Scope, method: str) -> Iterator[tuple[Any, str, str]]:
     """Yield (statement, label, file:line); a statement may be yielded alone or as (label, statement)."""
-    generator = getattr(component, method)()
+    title = title_of(component)
+    line = defined_at(getattr(type(component), method))
+    with authored(f"{method}()", title, line):
+        generator = getattr(component, method)()
     if not hasattr(generator, "gi_frame"):
-        raise _bad(component, "", f"{method}() must be a generator: yield the equations")
+        raise _bad(
+            component, line, f"{method}() yields nothing", "write `yield lhs == rhs` for each equation"
+        )
     while True:
         made = len(scope.relations)
-        try:
-            item = next(generator)
-        except StopIteration:
+        with authored(f"{method}()", title, line):
+            item = next(generator, _OVER)
+        if item is _OVER:
             return
-        except ArthurError as error:
-            assert component._binding is not None
-            error.path = error.path or component._binding.path
-            error.where = error.where or _traced(error, component)
-            raise
-        except Exception as error:
-            if "truth value" in str(error) or "__bool__" in str(error) or "Cannot convert" in str(error):
-                raise _bad(
-                    component,
-                    _traced(error, component),
-                    "a Python `if` (or `and`, `or`, `not`, max, min) on a symbol, whose value is not known here",
-                    remedy="use if_else(condition, a, b), casadi.logic_and / logic_or, casadi.fmax / fmin",
-                ) from error
-            raise _bad(component, _traced(error, component), f"{method}() failed: {error}") from error
         where = _line(generator)
         for i in range(made, len(scope.relations)):
             scope.relations[i] = replace(scope.relations[i], where=where)
@@ -142,29 +138,11 @@ def _line(generator: Any) -> str:
     ):
         generator = generator.gi_yieldfrom
     frame = generator.gi_frame
-    return f"{frame.f_code.co_filename.rsplit('/', 1)[-1]}:{frame.f_lineno}"
-
-
-def _traced(error: BaseException, component: Component) -> str:
-    """Return file:line of the innermost frame that is the model's own code, not this package's declare layer."""
-    found = ""
-    trace = error.__traceback__
-    while trace is not None:
-        name = trace.tb_frame.f_code.co_filename
-        if (
-            "/arthur_acausal/declare/" not in name
-            and "/casadi/" not in name
-            and not name.endswith("flatten/block.py")
-        ):
-            found = f"{name.rsplit('/', 1)[-1]}:{trace.tb_lineno}"
-        trace = trace.tb_next
-    return found or component._where
+    return place(frame.f_code.co_filename, frame.f_lineno)
 
 
 def _bad(component: Component, where: str, message: str, remedy: str = "") -> DeclarationError:
-    assert component._binding is not None
-    path = component._binding.path or type(component).__name__
-    return DeclarationError(message, path=path, where=where, remedy=remedy)
+    return DeclarationError(message, path=title_of(component), where=where, remedy=remedy)
 
 
 def _is_equation(statement: Any) -> bool:
@@ -231,7 +209,13 @@ def _assignment(statement: Any, where: str, component: Component, scope: Scope) 
 def make_equation(statement: SX, label: str, where: str, scope: Scope) -> Equation:
     """Return the equation behind a ``lhs == rhs``, its symbols looked up in ``scope``."""
     lhs, rhs = statement.dep(0), statement.dep(1)
-    return Equation(lhs, rhs, make_expression(lhs - rhs, where, scope), label, where)
+    name = f'"{label}"' if label else shortened(f"{lhs} == {rhs}")
+    return Equation(lhs, rhs, make_expression(lhs - rhs, where, scope), label, where, name)
+
+
+def shortened(text: str) -> str:
+    """Return the beginning of a text for a message."""
+    return text if len(text) <= SHOWN else text[: SHOWN - 3] + "..."
 
 
 def make_expression(value: SX, where: str, scope: Scope) -> Expression:
@@ -243,6 +227,7 @@ def make_expression(value: SX, where: str, scope: Scope) -> Expression:
         if atom is None:
             raise DeclarationError(
                 f"{symbol} belongs to no component of this model",
+                path=scope.prefix.rstrip("."),
                 where=where,
                 remedy="use the quantities of this component and of its parts only",
             )

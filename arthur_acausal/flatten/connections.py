@@ -7,10 +7,11 @@ from typing import NamedTuple
 
 from casadi import SX
 
-from arthur_acausal.declare.model import Component, Connector, Model
+from arthur_acausal.declare.model import Component, Connector, Model, title_of
 from arthur_acausal.declare.quantity import Real
 from arthur_acausal.declare.scope import Scope
-from arthur_acausal.errors import ConnectError
+from arthur_acausal.errors import ConnectError, UnitError
+from arthur_acausal.units import format_dimension, parse_unit
 
 
 class Node(NamedTuple):
@@ -77,7 +78,12 @@ def join(a: object, b: object, owner: Component, scope: Scope, where: str, found
     elif isinstance(a, SX) and isinstance(b, SX):
         _join_signals(a, b, owner, scope, where, found)
     else:
-        raise ConnectError("a connector and a signal cannot be connected", path=path_of(owner), where=where)
+        raise ConnectError(
+            f"{_told(a)} and {_told(b)}: a connector and a signal cannot be connected",
+            path=title_of(owner),
+            where=where,
+            remedy="connect connectors with connectors, an output with an input",
+        )
 
 
 def _join_connectors(a: Connector, b: Connector, owner: Component, where: str, found: Connections) -> None:
@@ -85,13 +91,18 @@ def _join_connectors(a: Connector, b: Connector, owner: Component, where: str, f
         binding = side._binding
         if binding is None or not (binding.owner is owner or _is_part(binding.owner, owner)):
             raise ConnectError(
-                f"{side!r} is neither a connector of this component nor of one of its parts",
-                path=path_of(owner),
+                f"{_told(side)} is neither a connector of this component nor of one of its parts",
+                path=title_of(owner),
                 where=where,
                 remedy="connect through the connectors of the part that holds it",
             )
     if a is b:
-        raise ConnectError(f"{path_of(a)} is connected to itself", path=path_of(owner), where=where)
+        raise ConnectError(
+            f"{path_of(a)} is connected to itself",
+            path=title_of(owner),
+            where=where,
+            remedy="name the other connector",
+        )
     _check_match(a, b, owner, where)
     nodes = [Node(first_variable(c), _owner(c) is owner) for c in (a, b)]
     for node, connector in zip(nodes, (a, b), strict=True):
@@ -128,17 +139,24 @@ def _check_match(a: Connector, b: Connector, owner: Component, where: str) -> No
     if not same or a.medium is not b.medium:
         raise ConnectError(
             f"{path_of(a)} ({_describe(a)}) does not fit {path_of(b)} ({_describe(b)})",
-            path=path_of(owner),
+            path=title_of(owner),
             where=where,
             remedy="only connectors with the same potentials and flows can meet",
         )
     for name in qa:
-        if qa[name].unit != qb[name].unit:
-            raise ConnectError(
-                f"{path_of(a)}.{name} is in {qa[name].unit}, but {path_of(b)}.{name} in {qb[name].unit}",
-                path=path_of(owner),
+        dimensions = [parse_unit(q[name].unit).dimension for q in (qa, qb)]
+        if dimensions[0] != dimensions[1]:
+            mine, its = (format_dimension(d) for d in dimensions)
+            raise UnitError(
+                f"{path_of(a)}.{name} is {mine}, but {path_of(b)}.{name} {its}",
+                path=title_of(owner),
                 where=where,
+                remedy="connect connectors of one kind, or put a component between them that converts",
             )
+
+
+def _told(side: object) -> str:
+    return title_of(side) if isinstance(side, Connector) else str(side)
 
 
 def _describe(connector: Connector) -> str:
@@ -147,8 +165,6 @@ def _describe(connector: Connector) -> str:
 
 
 def _join_signals(a: SX, b: SX, owner: Component, scope: Scope, where: str, found: Connections) -> None:
-    from arthur_acausal.units import format_dimension, parse_unit
-
     atoms = [scope.atom(side) for side in (a, b)]
     declared = [scope.variable[x.number] if x is not None and x.kind == "variable" else None for x in atoms]
     if (
@@ -159,16 +175,17 @@ def _join_signals(a: SX, b: SX, owner: Component, scope: Scope, where: str, foun
         names = " and ".join(str(side) for side in (a, b))
         raise ConnectError(
             f"{names} are not both signals",
-            path=path_of(owner),
+            path=title_of(owner),
             where=where,
             remedy="declare real_input / real_output, or write ==",
         )
     dims = [parse_unit(d.quantity.unit).dimension for d in declared if d is not None]
     if dims[0] != dims[1]:
-        raise ConnectError(
+        raise UnitError(
             f"{declared[0].path} is {format_dimension(dims[0])}, but {declared[1].path} {format_dimension(dims[1])}",
-            path=path_of(owner),
+            path=title_of(owner),
             where=where,
+            remedy="put a block between them that converts, or declare both signals in one unit",
         )
     own = path_of(owner)
     sinks = [
@@ -178,12 +195,18 @@ def _join_signals(a: SX, b: SX, owner: Component, scope: Scope, where: str, foun
     ]
     if len(sinks) != 1:
         cause = "neither gives a value" if len(sinks) == 2 else "both give a value"
-        raise ConnectError(f"{declared[0].path} and {declared[1].path}: {cause}", path=own, where=where)
+        raise ConnectError(
+            f"{declared[0].path} and {declared[1].path}: {cause}",
+            path=title_of(owner),
+            where=where,
+            remedy="connect an output with an input; a component's own input gives a value within it",
+        )
     if sinks[0] in found.driver:
         raise ConnectError(
             f"{scope.variable[sinks[0]].path} already has a source ({found.driver[sinks[0]]})",
-            path=own,
+            path=title_of(owner),
             where=where,
+            remedy="remove one of the two connections, or add the signals in a block",
         )
     found.driver[sinks[0]] = where
     assert atoms[0] is not None and atoms[1] is not None

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 
 import casadi as ca
 from casadi import SX
 
-from arthur_acausal.declare.scope import Scope
+from arthur_acausal.declare.scope import Atom, Scope
 from arthur_acausal.errors import UnitError
-from arthur_acausal.flatten.block import Equation
+from arthur_acausal.flatten.block import Assignment, Block, Expression, make_expression, shortened
 from arthur_acausal.units import Dimension, divide, format_dimension, multiply, parse_unit, power
 
 ANY = None  # the dimension of zero and of infinity, which fit everywhere
@@ -22,44 +24,95 @@ _KEEP = {ca.OP_NEG, ca.OP_FABS, ca.OP_TWICE, ca.OP_FLOOR, ca.OP_CEIL, ca.OP_ASSI
 _LOGIC = {ca.OP_AND, ca.OP_OR, ca.OP_NOT}
 
 
+Memo = dict[int, Dimension | None]
+
+
 class _MismatchError(Exception):
-    """Two dimensions that should be one."""
+    """Two dimensions that should be one; what should be done."""
+
+    def __init__(
+        self, message: str, remedy: str = "give constants with a dimension as parameters with a unit"
+    ):
+        super().__init__(message)
+        self.remedy = remedy
 
 
-def check_homogeneous(equation: Equation, scope: Scope, path: str) -> None:
-    """Raise UnitError unless both sides of the equation have the same dimension."""
-    memo: dict[int, Dimension | None] = {}
-    for symbol, atom in zip(equation.symbols, equation.atoms, strict=True):
-        quantity = scope.quantity(atom)
-        dimension = _ONE if quantity is None else parse_unit(quantity.unit).dimension
-        if atom.kind == "der":
-            dimension = divide(dimension, _SECOND)
-        if atom.kind == "time":
-            dimension = _SECOND
-        memo[symbol.element_hash()] = dimension
-    where = equation.where
+def check_block(block: Block, scope: Scope, path: str) -> None:
+    """Raise UnitError unless the block's equations, relations and assignments are homogeneous."""
+    for equation in block.equations + block.initial:
+        with _located(equation.name, path, equation.label, equation.where):
+            memo = _memo(equation.residual, scope)
+            _same(
+                _dimension(equation.lhs, memo),
+                _dimension(equation.rhs, memo),
+                "the left side",
+                "the right side",
+            )
+    for relation in block.relations:
+        with _located(relation.text, path, "", relation.where):
+            _dimension(relation.g.value, _memo(relation.g, scope))
+    for clause in block.clauses:
+        for assignment in clause.assignments:
+            _check_assignment(assignment, scope, path, clause.label)
+
+
+def _check_assignment(assignment: Assignment, scope: Scope, path: str, label: str) -> None:
+    if assignment.target is None:
+        return
+    name = scope.name(assignment.target)
+    given = shortened(str(assignment.value.value))
+    with _located(f"{name} becomes {given}", path, label, assignment.where):
+        value = _dimension(assignment.value.value, _memo(assignment.value, scope))
+        _same(_of(assignment.target, scope), value, name, given)
+
+
+def check_values(scope: Scope) -> None:
+    """Raise UnitError unless every value that is an expression of parameters has the dimension of its quantity."""
+    known: set[tuple[int, str]] = set()
+    for declared in scope.parameter + scope.variable + scope.discrete:
+        value = declared.value if declared.start is None else declared.start.value
+        if not isinstance(value, SX) or value.is_constant():
+            continue
+        key = (value.element_hash(), declared.quantity.unit)
+        if key in known:
+            continue
+        with _located(f"the value {shortened(str(value))}", declared.path, "", declared.where):
+            found = _dimension(value, _memo(make_expression(value, declared.where, scope), scope))
+            _same(parse_unit(declared.quantity.unit).dimension, found, declared.quantity.name, "the value")
+        known.add(key)
+
+
+@contextmanager
+def _located(what: str, path: str, label: str, where: str) -> Iterator[None]:
     try:
-        left, right = _dimension(equation.lhs, memo), _dimension(equation.rhs, memo)
+        yield
     except _MismatchError as mismatch:
-        raise UnitError(
-            f"inside {_short(equation)}: {mismatch}", path=path, equation=equation.label, where=where
-        ) from None
-    if left is not ANY and right is not ANY and left != right:
-        raise UnitError(
-            f"{_short(equation)}: the left side is {format_dimension(left)}, the right side {format_dimension(right)}",
-            path=path,
-            equation=equation.label,
-            where=where,
-            remedy="give constants with a dimension as parameters with a unit",
+        shown = f"{what}: {mismatch}" if not label else str(mismatch)
+        raise UnitError(shown, path=path, equation=label, where=where, remedy=mismatch.remedy) from None
+
+
+def _same(a: Dimension | None, b: Dimension | None, name_a: str, name_b: str) -> None:
+    if a is not ANY and b is not ANY and a != b:
+        raise _MismatchError(
+            f"{name_a} is {format_dimension(_sure(a))}, but {name_b} {format_dimension(_sure(b))}"
         )
 
 
-def _short(equation: Equation) -> str:
-    text = f"{equation.lhs} == {equation.rhs}"
-    return text if len(text) < 120 else text[:117] + "..."
+def _memo(expression: Expression, scope: Scope) -> Memo:
+    """Return the dimensions of the expression's symbols, by their hash."""
+    pairs = zip(expression.symbols, expression.atoms, strict=True)
+    return {symbol.element_hash(): _of(atom, scope) for symbol, atom in pairs}
 
 
-def _dimension(expression: SX, memo: dict[int, Dimension | None]) -> Dimension | None:
+def _of(atom: Atom, scope: Scope) -> Dimension:
+    quantity = scope.quantity(atom)
+    if quantity is None:
+        return _SECOND if atom.kind == "time" else _ONE
+    dimension = parse_unit(quantity.unit).dimension
+    return divide(dimension, _SECOND) if atom.kind == "der" else dimension
+
+
+def _dimension(expression: SX, memo: Memo) -> Dimension | None:
     """Return the dimension of an expression; children first, without recursion in depth."""
     stack = [expression]
     while stack:
@@ -70,6 +123,11 @@ def _dimension(expression: SX, memo: dict[int, Dimension | None]) -> Dimension |
             continue
         if node.is_constant():
             value = float(node)
+            if value != value:
+                raise _MismatchError(
+                    "it contains a constant that is not a number (NaN)",
+                    "use casadi's functions: math.sqrt(x), float(x) and the like have no value for a symbol",
+                )
             memo[key] = ANY if value == 0.0 or abs(value) == float("inf") else _ONE
             continue
         parts = [node.dep(i) for i in range(node.n_dep())]
@@ -85,7 +143,8 @@ def _dimension(expression: SX, memo: dict[int, Dimension | None]) -> Dimension |
 def _operation(node: SX, parts: list[SX], dims: list[Dimension | None]) -> Dimension | None:
     op = node.op()
     if op in _SAME or op in _COMPARE:
-        return _ONE if op in _COMPARE else _agree(node, parts, dims)
+        agreed = _agree(node, parts, dims)
+        return _ONE if op in _COMPARE else agreed
     if op in _KEEP:
         return dims[0]
     if op in _LOGIC or op == ca.OP_SIGN:

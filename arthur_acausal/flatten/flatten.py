@@ -9,13 +9,15 @@ from functools import cache
 import casadi as ca
 from casadi import SX
 
-from arthur_acausal.declare.model import Component, bind
-from arthur_acausal.declare.scope import Atom, Relation, Scope, using
+from arthur_acausal.declare.bind import bind_root
+from arthur_acausal.declare.model import Component, title_of
+from arthur_acausal.declare.scope import Atom, Relation, Scope
 from arthur_acausal.errors import ConnectError, DeclarationError
-from arthur_acausal.flatten.balance import check_balance, connectors_of, count, parts_of
+from arthur_acausal.flatten.balance import check_balance, connectors_of, parts_of
 from arthur_acausal.flatten.block import Block, Equation, Expression, run_block
 from arthur_acausal.flatten.connections import Connections, Node, first_variable, flow_sums, join, path_of
-from arthur_acausal.flatten.dimensions import check_homogeneous
+from arthur_acausal.flatten.dimensions import check_block as check_dimensions
+from arthur_acausal.flatten.dimensions import check_values
 from arthur_acausal.flatten.media import unify_media
 from arthur_acausal.flatten.system import FlatClause, FlatEquation, FlatRelation, FlatSystem, Shift
 from arthur_acausal.flatten.template import rebased, structure_key
@@ -27,13 +29,20 @@ def flatten(model: Component, *, name: str = "", check_units: bool = True) -> Fl
     Raises the errors of errors.py for whatever is wrong with a declaration, a connection, a unit or a balance.
     """
     if not isinstance(model, Component):
+        given = model.__name__ if isinstance(model, type) else repr(model)
         raise DeclarationError(
-            f"{model!r} is no component", remedy="give an instance: translate(Jack()), not translate(Jack)"
+            f"{given} is no component"
+            if not isinstance(model, type)
+            else f"{given} is a class, not an instance",
+            remedy=f"give an instance: {given}()"
+            if isinstance(model, type)
+            else "give an instance of a Component",
         )
     scope = Scope()
-    with using(scope):
-        root = bind(model, "", scope, None)
+    root = bind_root(model, scope)
     assert isinstance(root, Component)
+    if check_units:
+        check_values(scope)
     components = _walk(root)
     work = _Work(scope, check_units)
     for component in components:
@@ -76,25 +85,43 @@ def _add_whole(component: Component, work: _Work) -> None:
     made = len(work.found.aliases)
     for connection, where in block.connections:
         join(connection.a, connection.b, component, work.scope, where, work.found)
-    _check_block(
-        component, block, work, work.scope, len(work.found.aliases) - made + _flow_equations(component, work)
-    )
+    connections = [[a.i, a.j] for a in work.found.aliases[made:]]
+    _check_block(component, block, work, work.scope, connections + _closing_rows(component, work))
     _place(component, block, Shift(), work)
 
 
-def _flow_equations(component: Component, work: _Work) -> int:
-    """Return how many flow sums and default inputs the component's connections make."""
-    sets: dict[Node, int] = {}
-    for connector in [c for part in parts_of(component) for c in connectors_of(part)]:
-        sets[work.found.find(Node(first_variable(connector), False))] = count([connector]).flow
-    inputs = sum(q.kind == "input" for p in parts_of(component) for q in p._declarations.quantities.values())
-    driven = 0
+def _closing_rows(component: Component, work: _Work) -> list[list[int]]:
+    """Return the variables of each flow sum and of each default input that the component's connections leave."""
+    found = work.found
+    inner = [c for part in parts_of(component) for c in connectors_of(part)]
+    nodes = [Node(first_variable(c), False) for c in inner]
+    own = connectors_of(component)
+    nodes += [node for c in own if (node := Node(first_variable(c), True)) in found.parent]
+    sets: dict[Node, list[list[int]]] = {}
+    for node, connector in zip(
+        nodes, [*inner, *(c for c in own if Node(first_variable(c), True) in found.parent)], strict=True
+    ):
+        flows = [
+            node.connector + connector._declarations.slot[n]
+            for n, q in connector._declarations.quantities.items()
+            if q.kind == "flow"
+        ]
+        rows = sets.setdefault(found.find(node), [[] for _ in flows])
+        for row, number in zip(rows, flows, strict=True):
+            row.append(number)
+    return [row for rows in sets.values() for row in rows] + _default_inputs(component, work)
+
+
+def _default_inputs(component: Component, work: _Work) -> list[list[int]]:
+    """Return the inputs of the component's parts that nothing drives."""
+    found = []
     for part in parts_of(component):
         assert part._binding is not None
         for name, quantity in part._declarations.quantities.items():
             number = part._binding.first["variable"] + part._declarations.slot[name]
-            driven += quantity.kind == "input" and number in work.found.driver
-    return sum(sets.values()) + inputs - driven
+            if quantity.kind == "input" and number not in work.found.driver:
+                found.append([number])
+    return found
 
 
 def _add_leaf(component: Component, work: _Work) -> None:
@@ -111,7 +138,7 @@ def _add_leaf(component: Component, work: _Work) -> None:
         block = run_block(copy, scope)
         if block.connections:
             raise ConnectError("connect() joins parts; this component has none", path=path_of(component))
-        _check_block(copy, block, work, scope, 0)
+        _check_block(copy, block, work, scope, [])
         work.blocks[key] = block
     shift = Shift(
         binding.first["variable"],
@@ -124,12 +151,11 @@ def _add_leaf(component: Component, work: _Work) -> None:
 
 
 def _check_block(
-    component: Component, block: Block, work: _Work, scope: Scope, connection_equations: int
+    component: Component, block: Block, work: _Work, scope: Scope, connections: list[list[int]]
 ) -> None:
-    check_balance(component, block, connection_equations)
+    check_balance(component, block, connections)
     if work.check_units:
-        for equation in block.equations + block.initial:
-            check_homogeneous(equation, scope, path_of(component) or type(component).__name__)
+        check_dimensions(block, scope, title_of(component))
 
 
 def _place(component: Component, block: Block, shift: Shift, work: _Work) -> None:
@@ -185,4 +211,4 @@ def _sum_of(signs: tuple[int, ...]) -> Expression:
 @cache
 def _sum_equation(signs: tuple[int, ...], where: str) -> Equation:
     total = _sum_of(signs)
-    return Equation(total.value, SX(0.0), total, "flow balance", where)
+    return Equation(total.value, SX(0.0), total, "flow balance", where, '"flow balance"')

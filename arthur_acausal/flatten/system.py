@@ -42,9 +42,8 @@ class FlatEquation:
 
     @property
     def text(self) -> str:
-        """What an error message calls the equation: path, label, file:line."""
-        label = f' "{self.equation.label}"' if self.equation.label else ""
-        return f"{self.path}{label} ({self.equation.where})".strip()
+        """What an error message calls the equation: path, label (or the equation itself), file:line."""
+        return f"{self.path} {self.equation.name} ({self.equation.where})".lstrip()
 
 
 def shifted(atom: Atom, shift: Shift) -> Atom:

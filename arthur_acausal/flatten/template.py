@@ -57,7 +57,7 @@ def rebased(component: Component) -> tuple[Component, Scope]:
     """Return a copy of a bound component, numbered from zero in a scope of its own."""
     binding = component._binding
     assert binding is not None
-    scope = Scope()
+    scope = Scope(prefix=f"{binding.path}." if binding.path else "")
     for space in SPACES:
         first = binding.first[space]
         counted = len_of(component, space)
@@ -79,7 +79,7 @@ def _copy(model: Model, scope: Scope, base: dict[str, int]) -> Model:
     assert old is not None
     copy = type(model).__new__(type(model))
     first = {space: old.first[space] - base[space] for space in SPACES}
-    binding = Binding(scope, old.path, first, None, old.depth)
+    binding = Binding(scope, old.path, first, None, old.depth, complete=True)
     copies = {id(child): _copy(child, scope, base) for child in old.children}
     binding.children = list(copies.values())
     for child in binding.children:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from arthur_acausal.declare.scope import Atom
 from arthur_acausal.errors import StructureError
+from arthur_acausal.flatten.connections import Alias
 from arthur_acausal.flatten.system import FlatEquation, FlatSystem
 from arthur_acausal.graph import Outcome, SignedUnion
 from arthur_acausal.transform.linear import LinearAnalysis
@@ -38,9 +39,9 @@ def eliminate_aliases(flat: FlatSystem, linear: LinearAnalysis) -> Aliases:
     Two variables that are the derivative of one are aliases, too: so rigidly joined inertias share one speed.
     """
     union = SignedUnion(len(flat.variables))
-    zeros: list[int] = []
+    zeros: list[tuple[int, FlatEquation]] = []
     for alias in flat.aliases:
-        _join(union, alias.i, alias.j, 1, f"connect ({alias.where})")
+        _connect(union, alias, flat)
     kept: list[FlatEquation] = []
     derivatives: list[Definition] = []
     for equation in flat.equations:
@@ -52,13 +53,14 @@ def eliminate_aliases(flat: FlatSystem, linear: LinearAnalysis) -> Aliases:
         first = atoms[shape.i]
         if shape.j < 0:
             if first.kind == "variable":
-                zeros.append(first.number)
+                zeros.append((first.number, equation))
             else:
                 kept.append(equation)
             continue
         second = atoms[shape.j]
         if first.kind == "variable" and second.kind == "variable":
-            _join(union, first.number, second.number, shape.sign, equation.text)
+            if union.union(first.number, second.number, shape.sign) is Outcome.KNOWN:
+                kept.append(equation)  # it says nothing new: the matching tells what is then not determined
         elif first.kind != second.kind:
             w, x = (first, second) if second.kind == "der" else (second, first)
             derivatives.append((equation, w, x, shape.sign))
@@ -67,9 +69,8 @@ def eliminate_aliases(flat: FlatSystem, linear: LinearAnalysis) -> Aliases:
     definitions = _join_derivatives(union, derivatives)
     states = _differentiated(flat)
     union.prefer(_preference(flat, states))
-    zero = frozenset(union.find(i)[0] for i in zeros) | {
-        union.find(i)[0] for i in range(len(union)) if union.is_zero(i)
-    }
+    zero, twice = _zeros(union, zeros, flat)
+    kept += twice
     rate, rest = _rates(union, definitions, {union.find(i)[0] for i in states}, zero | set(flat.inputs))
     pairs = [union.find(i) for i in range(len(union))]
     root = [p[0] for p in pairs]
@@ -99,12 +100,32 @@ def _rates(
     return rate, rest
 
 
-def _join(union: SignedUnion, i: int, j: int, sign: int, text: str) -> None:
-    if union.union(i, j, sign) is Outcome.KNOWN:
+def _zeros(
+    union: SignedUnion, zeros: list[tuple[int, FlatEquation]], flat: FlatSystem
+) -> tuple[frozenset[int], list[FlatEquation]]:
+    """Return the roots that are zero, and the equations ``x = 0`` that say nothing new of the unknowns."""
+    zero = {union.find(i)[0] for i in range(len(union)) if union.is_zero(i)}
+    known = zero | {union.find(i)[0] for i in flat.inputs}
+    twice = []
+    for i, equation in zeros:
+        root = union.find(i)[0]
+        if root in known:
+            twice.append(equation)
+        else:
+            known.add(root)
+            zero.add(root)
+    return frozenset(zero), twice
+
+
+def _connect(union: SignedUnion, alias: Alias, flat: FlatSystem) -> None:
+    if union.union(alias.i, alias.j) is Outcome.KNOWN:
+        a, b = flat.variables[alias.i].path, flat.variables[alias.j].path
         raise StructureError(
-            f"{text}: this equation follows from others",
-            cause="the same equality is stated twice, directly or around a loop",
-            remedy="remove it, or the one that it repeats; something else is then not determined",
+            f"{a} and {b} are connected already",
+            where=alias.where,
+            cause="the connectors are joined within a component and again around it, so that the flow between "
+            "them can take two ways and neither is determined",
+            remedy="remove one of the connections",
         )
 
 

@@ -15,6 +15,8 @@ from arthur_acausal.graph import PRIORITIES, StructurallySingular, pantelides, s
 from arthur_acausal.transform.linear import Coefficient, LinearAnalysis
 from arthur_acausal.transform.rows import Evaluator, Nodes, Ref, Row, incidence
 
+LISTED = 12  # names in one message
+
 
 @dataclass(frozen=True, slots=True)
 class ReducedSystem:
@@ -124,19 +126,32 @@ def _differentiated(row: Row, nodes: Nodes, linear: LinearAnalysis, evaluator: E
 def _singular(singular: StructurallySingular, rows: list[Row], nodes: Nodes) -> StructureError:
     equations = [rows[e].text for e in singular.equations]
     variables = [nodes.name(v) for v in singular.variables]
+    return not_matching(equations, variables)
+
+
+def not_matching(equations: Sequence[str], variables: Sequence[str]) -> StructureError:
+    """Return the error for equations that are too many for their unknowns, and unknowns that nothing determines."""
     parts = []
     if equations:
-        parts.append("too many equations for their unknowns: " + "; ".join(equations[:12]))
+        parts.append(f"these equations are more than their unknowns: {listed(equations, '; ')}")
     if variables:
-        parts.append("not determined: " + ", ".join(variables[:12]))
+        parts.append(f"not determined: {listed(variables, ', ')}")
+    remedies = {
+        (True, True): "remove one of the equations named, and add one for what is not determined",
+        (True, False): "remove one of the equations named",
+    }
     return StructureError(
-        "the system is structurally singular: " + ". ".join(parts),
-        path=rows[singular.equations[0]].text.split(" ")[0]
+        f"the system is structurally singular; {'; '.join(parts)}",
+        cause="some equations say the same thing, directly or around a loop, and nothing is left for the rest"
         if equations
-        else variables[0]
-        if variables
         else "",
-        remedy="remove one of the equations named"
-        if equations
-        else "add an equation that determines one of them",
+        remedy=remedies.get(
+            (bool(equations), bool(variables)), "add an equation that determines one of them"
+        ),
     )
+
+
+def listed(names: Sequence[str], separator: str) -> str:
+    """Return the first names in one text, and how many more there are."""
+    more = len(names) - LISTED
+    return separator.join(names[:LISTED]) + (f" and {more} more" if more > 0 else "")

@@ -79,9 +79,11 @@ class Nodes:
         """Return what der(variable i) stands for."""
         ref = self.of_variable(i)
         if ref.kind == "input":
+            path, source = (self.flat.variables[k].path for k in (i, self.flat.inputs[ref.number]))
             raise StructureError(
-                f"der({self.flat.variables[i].path}) is the derivative of an external input",
-                equation=text,
+                f"{text}: der({path}) is not known"
+                + ("" if path == source else f": {path} equals the external input {source}"),
+                cause="an external input is known as a function of time only by its values",
                 remedy="connect the input to a source within the model, or pass it through a filter",
             )
         return ref if ref.kind == "zero" else Ref("node", self.derivative_of(ref.number), ref.sign)

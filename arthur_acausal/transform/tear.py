@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from arthur_acausal.errors import StructureError
 from arthur_acausal.graph import blt, dulmage_mendelsohn, matching, tear
-from arthur_acausal.transform.index import ReducedSystem
+from arthur_acausal.transform.index import ReducedSystem, not_matching
 from arthur_acausal.transform.linear import Coefficient
 from arthur_acausal.transform.rows import Nodes
 
@@ -89,10 +89,5 @@ def _unmatched(
     edges: list[list[int]], assigned: list[int], unknown: list[int], system: ReducedSystem, nodes: Nodes
 ) -> StructureError:
     parts = dulmage_mendelsohn(edges, len(unknown), assigned)
-    equations = "; ".join(system.rows[e].text for e in parts.over_equations[:12])
-    variables = ", ".join(nodes.name(unknown[v]) for v in parts.under_variables[:12])
-    return StructureError(
-        f"{len(edges)} equations for {len(unknown)} unknowns do not match",
-        cause=f"too many equations: {equations}. Not determined: {variables}",
-        remedy="remove an equation named, and add one for what is not determined",
-    )
+    equations = [system.rows[e].text for e in parts.over_equations]
+    return not_matching(equations, [nodes.name(unknown[v]) for v in parts.under_variables])

@@ -27,7 +27,7 @@ class PumpSize(Generic[Number]):
 
 
 def pump_scaling(
-    Q_req: Number, N_0: Number, *, eta_v: float = 0.85, rho_gear: float = 7750.0
+    Q_req: Number, N_0: Number, *, eta_v: Number | float = 0.85, rho_gear: Number | float = 7750.0
 ) -> PumpSize[Number]:
     """Size a pump for the flow ``Q_req`` [m^3/s] at the speed ``N_0`` [rad/s].
 
@@ -42,7 +42,7 @@ def consistent_displacement(Q_req: Number, N_0: Number, dp: Number, R_G: Number,
     return (Q_req + dp / R_G) / (N_0 / (2 * pi)) + 1 / RR_G
 
 
-def gear_size(D: Number, *, rho_gear: float = 7750.0) -> PumpSize[Number]:
+def gear_size(D: Number, *, rho_gear: Number | float = 7750.0) -> PumpSize[Number]:
     """Return the pump of displacement ``D`` [m^3] whose gears are similar to the report's (5.15 to 5.20).
 
     Addendum and dedendum 0.1 r_p, width 1.25 r_p; the inertia is that of both gears as cylinders.

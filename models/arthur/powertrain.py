@@ -67,6 +67,7 @@ class Powertrain(Component):
     N_0: Real = parameter("rad/s", default=5000 * 2 * pi / 60, min=0.0, display="rpm", description="assumed")
     eta_v: Real = parameter("1", default=0.85, min=0.0, max=1.0, description="Table 6; 0.7 in section 5.2")
     dp_0: Real = parameter("Pa", default=20.68e6, display="bar", description="of consistent sizing; assumed")
+    rho_gear: Real = parameter("kg/m^3", default=7750.0, min=0.0, description="of the pump's gears: steel")
     R_G: Real = parameter("Pa*s/m^3", default=1e12, min=0.0, description="gear resistance, Table 7")
     RR_G: Real = parameter("1/m^3", default=1e8, min=0.0, description="gear reluctance, Table 7")
 
@@ -84,7 +85,8 @@ class Powertrain(Component):
         self.pump = self._pump()
         self.manifold = Volume(fluid=self.fluid, V=4.83e-6, p=start(P_START, fixed=True))
         self.relief = ReliefValve(law=choice.relief_law)
-        self.filter = Filter() if choice.filter_drop == "own flow" else SignalFilter()
+        kind = Filter if choice.filter_drop == "own flow" else SignalFilter
+        self.filter = kind(p_s=start(P_START))
         self.valves = [ServoValve(law=choice.valve_law, spool=choice.spool) for _ in range(self.n)]
         self.cylinders = [self._cylinder(i) for i in range(self.n)]
         self.loads = [LoadForce() for _ in range(self.n)]
@@ -110,9 +112,9 @@ class Powertrain(Component):
     def _pump(self) -> GearPump:
         if self.choice.sizing == "consistent":
             D = consistent_displacement(self.Q_req, self.N_0, self.dp_0, self.R_G, self.RR_G)
-            size = gear_size(D)
+            size = gear_size(D, rho_gear=self.rho_gear)
         else:
-            size = pump_scaling(self.Q_req, self.N_0, eta_v=self.eta_v)
+            size = pump_scaling(self.Q_req, self.N_0, eta_v=self.eta_v, rho_gear=self.rho_gear)
         return GearPump(D=size.D, J=size.J, R_G=self.R_G, RR_G=self.RR_G)
 
     def _cylinder(self, i: int) -> Cylinder:

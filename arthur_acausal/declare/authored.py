@@ -1,0 +1,105 @@
+"""The author's own code: which line of it is being run, and what went wrong in it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+import casadi as ca
+
+from arthur_acausal.errors import ArthurError, DeclarationError, nearest
+
+# Code between the author's line and what it asks for: this package's stages (not components and models), CasADi.
+_PACKAGE = Path(__file__).parents[1]
+_BETWEEN = (
+    *(str(_PACKAGE / name) for name in ("declare", "flatten", "transform", "codegen", "api.py")),
+    str(Path(ca.__file__).parent),
+    "<string>",  # the __init__ that a dataclass makes
+)
+
+SYMBOL_AS_TRUTH = "truth value"  # what CasADi's message for bool(symbol) contains
+
+
+def calling_line() -> str:
+    """Return file:line of the author's code that is being run."""
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None and frame.f_code.co_filename.startswith(_BETWEEN):
+        frame = frame.f_back
+    return place(frame.f_code.co_filename, frame.f_lineno) if frame is not None else ""
+
+
+def place(filename: str, line: int) -> str:
+    """Return file:line as messages show it."""
+    return f"{Path(filename).name}:{line}"
+
+
+def defined_at(function: Any) -> str:
+    """Return file:line of a function of the author's."""
+    code = getattr(function, "__code__", None)
+    return place(code.co_filename, code.co_firstlineno) if code is not None else ""
+
+
+def traced(error: BaseException) -> str:
+    """Return file:line of the innermost line of the author's code that an error came through."""
+    found = ""
+    trace = error.__traceback__
+    while trace is not None:
+        name = trace.tb_frame.f_code.co_filename
+        if not name.startswith(_BETWEEN):
+            found = place(name, trace.tb_lineno)
+        trace = trace.tb_next
+    return found
+
+
+@contextmanager
+def authored(what: str, path: str, where: str = "") -> Iterator[None]:
+    """Raise as an ArthurError with ``path`` and file:line what the author's code raises in it.
+
+    ``what``: "build()", for instance; ``where`` stands in where the error did not come through the author's code.
+    """
+    try:
+        yield
+    except ArthurError as error:
+        error.path = error.path or path
+        error.where = error.where or traced(error) or where
+        raise
+    except Exception as error:
+        raise _explained(error, what, path, traced(error) or where) from error
+
+
+def _explained(error: Exception, what: str, path: str, where: str) -> DeclarationError:
+    if SYMBOL_AS_TRUTH in str(error):
+        return _truth(what, path, where)
+    if isinstance(error, AttributeError) and error.name and hasattr(error.obj, "_declarations"):
+        return _attribute(error.obj, error.name, path, where)
+    return DeclarationError(
+        f"{what} failed: {error}", path=path, where=where, cause=f"Python raised {type(error).__name__}"
+    )
+
+
+def _truth(what: str, path: str, where: str) -> DeclarationError:
+    remedy = "use if_else(condition, a, b), casadi.logic_and / logic_or, casadi.fmax / fmin"
+    if what == "build()":
+        remedy = "decide by a structural parameter, a plain Python attribute such as `closed: bool = False`"
+    return DeclarationError(
+        "a Python `if` (or `and`, `or`, `not`, max, min) on a symbol, whose value is not known here",
+        path=path,
+        where=where,
+        cause="the code runs once, before there are any values",
+        remedy=remedy,
+    )
+
+
+def _attribute(model: Any, name: str, path: str, where: str) -> DeclarationError:
+    known = [*model._declarations.quantities, *model._declarations.parts, *model._declarations.structural]
+    known += [n for n in model.__dict__ if not n.startswith("_") and n not in known]
+    return DeclarationError(
+        f"{type(model).__name__} has no {name!r}",
+        path=path,
+        where=where,
+        remedy=nearest(name, known) or f"it has {', '.join(known) or 'nothing'}",
+    )
