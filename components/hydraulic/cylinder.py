@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from casadi import SX, exp, fabs, tanh
 
 from arthur_acausal import Component, Equations, Real, der, parameter, real_output, variable
+from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.laws import stop_energy, stop_force
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
 from arthur_acausal.components.translational import Flange
+
+Efficiency = Literal["friction", "printed"]
 
 
 class Cylinder(Component):
@@ -38,7 +43,7 @@ class Cylinder(Component):
     positive, 9 mm into a stop.
     """
 
-    efficiency: str = "friction"
+    efficiency: Efficiency = "friction"
     stribeck: bool = False
     inertia: bool = True
     stop_events: bool = False
@@ -74,6 +79,9 @@ class Cylinder(Component):
     m_fluid: Real = variable("kg", nominal=1e-3, description="mass of the fluid in both chambers")
     P_loss: Real = real_output("W", description="power turned to heat: friction and leakage")
     E_stored: Real = variable("J", description="kinetic, stop springs, compressed fluid")
+
+    def build(self) -> None:
+        check_choice(self, "efficiency", Efficiency)
 
     def equations(self) -> Equations:
         a, b, fluid = self.port_a, self.port_b, self.fluid

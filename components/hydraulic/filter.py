@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from casadi import SX
 
-from arthur_acausal import Equations, Real, parameter, real_input
+from arthur_acausal import Equations, Real, parameter, real_input, variable
 from arthur_acausal.components.hydraulic.two_port import TwoPort
 
 
@@ -15,6 +15,9 @@ class Filter(TwoPort):
     """
 
     R_hf: Real = parameter("Pa*s/m^3", default=1e9, min=0.0, description="hydraulic resistance; assumed")
+    p_s: Real = variable(
+        "Pa", start=1e5, nominal=1e7, display="bar", description="pressure behind the filter"
+    )
 
     def through(self) -> SX:
         """Return the flow [m^3/s] that makes the pressure drop."""
@@ -22,6 +25,7 @@ class Filter(TwoPort):
 
     def equations(self) -> Equations:
         yield from super().equations()
+        yield self.p_s == self.port_b.p
         yield "linear resistance", self.dp == self.R_hf * self.through()
 
 

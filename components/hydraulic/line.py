@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from math import pi
+from typing import Literal
 
 from casadi import fabs, fmax
 
 from arthur_acausal import Component, Equations, Real, connect, der, parameter, variable
+from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
 from arthur_acausal.components.hydraulic.resistance import RE_TURBULENT
 from arthur_acausal.components.hydraulic.volume import Volume
+
+LineFriction = Literal["none", "laminar", "turbulent"]
 
 
 class LineSegment(Component):
@@ -21,7 +25,7 @@ class LineSegment(Component):
     while the flow changes.
     """
 
-    friction: str = "laminar"
+    friction: LineFriction = "laminar"
     port_a = HydraulicPort()
     port_b = HydraulicPort()
     fluid: Fluid = Fluid()
@@ -33,6 +37,9 @@ class LineSegment(Component):
     dp_friction: Real = variable("Pa", nominal=1e5, display="bar", description="pressure drop by friction")
     P_loss: Real = variable("W", description="power turned to heat by friction")
     E_stored: Real = variable("J", description="kinetic energy")
+
+    def build(self) -> None:
+        check_choice(self, "friction", LineFriction)
 
     def equations(self) -> Equations:
         a, b = self.port_a, self.port_b
@@ -66,7 +73,7 @@ class Line(Component):
     """
 
     n: int = 10
-    friction: str = "laminar"
+    friction: LineFriction = "laminar"
     volume_a: bool = False
     volume_b: bool = False
     port_a = HydraulicPort()

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from casadi import SX, fmax, fmin
 
 from arthur_acausal import Component, Equations, Real, der, parameter, real_input, real_output, variable
+from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.rotational import Flange
 
 LINE_TO_LINE = (2 / 3) ** 0.5
 """K_e/K_T of eq. 5.4, with K_e in V s/rad."""
+
+MotorLaw = Literal["line", "dc"]
+Clamp = Literal["both", "above", "none"]
 
 
 class BrushlessMotor(Component):
@@ -31,8 +37,8 @@ class BrushlessMotor(Component):
     event.
     """
 
-    law: str = "line"
-    clamp: str = "both"
+    law: MotorLaw = "line"
+    clamp: Clamp = "both"
     flange = Flange()
     V: Real = real_input("V", default=0.0, nominal=40.0, description="voltage asked for")
     P_el: Real = real_output("W", nominal=1e3, description="electrical power taken in")
@@ -54,6 +60,10 @@ class BrushlessMotor(Component):
     P_copper: Real = real_output("W", description="power turned to heat in the windings")
     P_friction: Real = real_output("W", description="power turned to heat in the bearings")
     E_stored: Real = variable("J", description="kinetic energy")
+
+    def build(self) -> None:
+        check_choice(self, "law", MotorLaw)
+        check_choice(self, "clamp", Clamp)
 
     def equations(self) -> Equations:
         power = 1 / LINE_TO_LINE if self.law == "line" else 1.0

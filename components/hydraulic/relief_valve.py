@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from math import pi
+from typing import Literal
 
 from casadi import SX, cos, fmax, sin, sqrt
 
 from arthur_acausal import Equations, Real, parameter, smooth_if_else, variable
+from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic.laws import clamp, turbulent_root
 from arthur_acausal.components.hydraulic.two_port import TwoPort
+
+ReliefLaw = Literal["orifice", "listing"]
 
 
 class ReliefValve(TwoPort):
@@ -28,7 +32,7 @@ class ReliefValve(TwoPort):
     of the laminar transition.
     """
 
-    law: str = "orifice"
+    law: ReliefLaw = "orifice"
     p_c: Real = parameter("Pa", default=20.68e6, display="bar", description="cracking pressure; assumed")
     k: Real = parameter("N/m", default=5.16e4, min=0.0, description="spring stiffness")
     d_p: Real = parameter("m", default=6.35e-3, min=0.0, description="poppet diameter")
@@ -38,6 +42,9 @@ class ReliefValve(TwoPort):
     dp_small: Real = parameter("Pa", default=1e4, min=0.0, description="laminar below about this drop")
     x: Real = variable("m", nominal=1e-5, description="lift of the poppet")
     A_o: Real = variable("m^2", nominal=1e-7, description="open area")
+
+    def build(self) -> None:
+        check_choice(self, "law", ReliefLaw)
 
     def lift(self, p: SX) -> SX:
         """Return the lift [m] that balances the pressure ``p`` [Pa], without limits: eq. 5.27."""

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from arthur_acausal import Component, Equations, Real, der, parameter, real_output, variable
+from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.laws import gas_energy, stop_energy, stop_force
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
+
+GasLaw = Literal["algebraic", "integrated"]
 
 
 class GasReservoir(Component):
@@ -23,7 +28,7 @@ class GasReservoir(Component):
     piston 56 um thick). The piston rings at about 4.2 kHz with a damping ratio of 0.005.
     """
 
-    gas: str = "algebraic"
+    gas: GasLaw = "algebraic"
     stop_events: bool = False
     port = HydraulicPort()
     fluid: Fluid = Fluid()
@@ -52,6 +57,9 @@ class GasReservoir(Component):
     m_fluid: Real = variable("kg", nominal=0.1, description="mass of the fluid")
     P_loss: Real = real_output("W", description="power turned to heat by the piston's damping")
     E_stored: Real = variable("J", description="kinetic, stop springs, gas and fluid")
+
+    def build(self) -> None:
+        check_choice(self, "gas", GasLaw)
 
     def equations(self) -> Equations:
         yield self.p == self.port.p

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from math import pi
+from typing import Literal
 
 from casadi import SX, fmax, sqrt
 
 from arthur_acausal import Component, Equations, Real, der, parameter, real_input, real_output, variable
+from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.laws import clamp, exact_root, turbulent_root
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
+
+ValveLaw = Literal["laminar transition", "listing"]
+Spool = Literal["ideal", "second order"]
 
 
 class ServoValve(Component):
@@ -36,8 +41,8 @@ class ServoValve(Component):
     5-6).
     """
 
-    law: str = "laminar transition"
-    spool: str = "ideal"
+    law: ValveLaw = "laminar transition"
+    spool: Spool = "ideal"
     port_p = HydraulicPort()
     port_t = HydraulicPort()
     port_a = HydraulicPort()
@@ -64,6 +69,10 @@ class ServoValve(Component):
     q_at: Real = variable("m^3/s", nominal=1e-5, description="flow from A to T")
     q_bt: Real = variable("m^3/s", nominal=1e-5, description="flow from B to T")
     P_loss: Real = real_output("W", description="power turned to heat in the four lands")
+
+    def build(self) -> None:
+        check_choice(self, "law", ValveLaw)
+        check_choice(self, "spool", Spool)
 
     def land(self, x: SX, dp: SX) -> SX:
         """Return the flow [m^3/s] at the drop ``dp`` through a land that opens with positive ``x``."""

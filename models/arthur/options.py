@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, get_args, get_type_hints
 
 from arthur_acausal import UsageError
+from arthur_acausal.components.hydraulic.cylinder import Efficiency
+from arthur_acausal.components.hydraulic.motor import Clamp, MotorLaw
+from arthur_acausal.components.hydraulic.relief_valve import ReliefLaw
+from arthur_acausal.components.hydraulic.reservoir import GasLaw
+from arthur_acausal.components.hydraulic.servo_valve import Spool, ValveLaw
 from arthur_acausal.errors import nearest
 
 
@@ -29,26 +35,33 @@ class Options:
     stop_events : contact with the stops of cylinders and reservoir makes events.
     """
 
-    motor_law: str = "line"
-    motor_clamp: str = "both"
-    supply: str = "ideal"
-    sizing: str = "efficiency"
-    relief_law: str = "orifice"
-    valve_law: str = "laminar transition"
-    spool: str = "ideal"
-    filter_drop: str = "own flow"
-    efficiency: str = "friction"
+    motor_law: MotorLaw = "line"
+    motor_clamp: Clamp = "both"
+    supply: Literal["ideal", "battery"] = "ideal"
+    sizing: Literal["efficiency", "consistent"] = "efficiency"
+    relief_law: ReliefLaw = "orifice"
+    valve_law: ValveLaw = "laminar transition"
+    spool: Spool = "ideal"
+    filter_drop: Literal["own flow", "pump flow"] = "own flow"
+    efficiency: Efficiency = "friction"
     stribeck: bool = False
     c_first: float = 10.0
     c_others: float = 10.0
     A_B: float = 5.35e-5
-    gas: str = "algebraic"
+    gas: GasLaw = "algebraic"
     A_R: float = 1.15e-3
     k_R: float = 1.42e9
     constant_density: bool = False
     air: bool = False
     cavitation: bool = False
     stop_events: bool = False
+
+    def __post_init__(self) -> None:
+        for name, kind in get_type_hints(type(self)).items():
+            known, given = get_args(kind), getattr(self, name)
+            if known and given not in known:
+                remedy = nearest(str(given), known) or f"choose one of {', '.join(map(repr, known))}"
+                raise UsageError(f"the powertrain has no {name} {given!r}", remedy=remedy)
 
 
 VARIANTS = {

@@ -132,16 +132,16 @@ class Powertrain(Component):
         )
 
     def equations(self) -> Equations:
-        ring = self.reservoir.port
+        tank = self.reservoir.port
         yield connect(self.motor.flange, self.pump.flange)
-        yield connect(ring, self.pump.port_a)
+        yield connect(tank, self.pump.port_a)
         yield connect(self.pump.port_b, self.manifold.port)
         yield connect(self.manifold.port, self.relief.port_a)
-        yield connect(self.relief.port_b, ring)
+        yield connect(self.relief.port_b, tank)
         yield connect(self.manifold.port, self.filter.port_a)
         for valve, cylinder, load in zip(self.valves, self.cylinders, self.loads, strict=True):
             yield connect(self.filter.port_b, valve.port_p)
-            yield connect(valve.port_t, ring)
+            yield connect(valve.port_t, tank)
             yield connect(valve.port_a, cylinder.port_a)
             yield connect(valve.port_b, cylinder.port_b)
             yield connect(cylinder.flange, load.flange)

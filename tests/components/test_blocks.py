@@ -93,7 +93,11 @@ def test_corners_of_sources_are_events() -> None:
 
 
 def test_an_integrator_integrates() -> None:
-    solution = simulate(Driven(source=Clock(), block=Integrator(k=3.0, y_start=1.0)), 2.0, options=PRECISE)
+    solution = simulate(
+        Driven(source=Ramp(duration=2.0, height=2.0), block=Integrator(k=3.0, y_start=1.0)),
+        2.0,
+        options=PRECISE,
+    )
     assert solution.final("block.y") == pytest.approx(1 + 3 * 2.0**2 / 2, rel=1e-8)
 
 
@@ -112,18 +116,31 @@ def test_a_second_order_lag() -> None:
     assert solution.final("block.y") == pytest.approx(2 * step, rel=1e-7)
 
 
-def test_arithmetic() -> None:
-    def final(block: Block, **inputs: float) -> float:
-        return simulate(Alone(block=block), 1.0, inputs={f"block.{n}": v for n, v in inputs.items()}).final(
-            "block.y"
-        )
+class Binary(Component):
+    """A block of two inputs behind two constants."""
 
-    assert final(Gain(k=3.0), u=2.0) == 6.0
-    assert final(Add(k1=2.0, k2=-1.0), u1=3.0, u2=4.0) == 2.0
-    assert final(Feedback(), u1=3.0, u2=4.0) == -1.0
-    assert final(Product(), u1=3.0, u2=4.0) == 12.0
-    assert final(Limiter(y_max=2.0), u=5.0) == 2.0
-    assert final(Limiter(y_max=2.0), u=-5.0) == -2.0
+    a: Constant = Constant(k=3.0)
+    b: Constant = Constant(k=4.0)
+    block: Block = Add()
+
+    def equations(self) -> Equations:
+        yield connect(self.a.y, self.block.u1)  # type: ignore[attr-defined]
+        yield connect(self.b.y, self.block.u2)  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize(
+    ("block", "result"), [(Add(k1=2.0, k2=-1.0), 2.0), (Feedback(), -1.0), (Product(), 12.0)]
+)
+def test_blocks_of_two_inputs(block: Block, result: float) -> None:
+    assert simulate(Binary(block=block), 1.0).final("block.y") == result
+
+
+@pytest.mark.parametrize(
+    ("block", "u", "result"),
+    [(Gain(k=3.0), 2.0, 6.0), (Limiter(y_max=2.0), 5.0, 2.0), (Limiter(y_max=2.0), -5.0, -2.0)],
+)
+def test_blocks_of_one_input(block: Block, u: float, result: float) -> None:
+    assert simulate(Driven(source=Constant(k=u), block=block), 1.0).final("block.y") == result
 
 
 class Loop(Component):

@@ -10,6 +10,7 @@ import pytest
 from arthur_acausal import Component, Equations, SolverOptions, connect, simulate, start, translate
 from arthur_acausal.components import rotational as rot
 from arthur_acausal.components import translational as lin
+from arthur_acausal.components.blocks import Constant
 
 PRECISE = SolverOptions(rtol=1e-9)
 
@@ -149,15 +150,17 @@ def test_rigidly_joined_inertias_add_up() -> None:
 
 def test_a_position_source_moves_a_compliant_load() -> None:
     class Dragged(Component):
+        place = Constant.of("m")(k=0.2)
         hand = lin.PositionSource()
         spring = lin.SpringDamper(c=50.0, d=0.0)
         sensor = lin.ForceSensor()
         wall = lin.Fixed()
 
         def equations(self) -> Equations:
+            yield connect(self.place.y, self.hand.s)
             yield connect(self.hand.flange, self.sensor.flange_a)
             yield connect(self.sensor.flange_b, self.spring.flange_a)
             yield connect(self.spring.flange_b, self.wall.flange)
 
-    solution = translate(Dragged()).simulate(1.0, inputs={"hand.s": 0.2})
+    solution = simulate(Dragged(), 1.0)
     assert abs(solution.final("sensor.f")) == pytest.approx(10.0, rel=1e-9)
