@@ -184,5 +184,5 @@ def flat(inputs: Inputs, audit: bool = False) -> Flat:
             "reservoir.p",
             *(f"energy_{name}.E" for name in powers if audit),
         ),
-        z_path="filter.port_b.p",
+        z_path="filter.p_s",
     )
