@@ -11,12 +11,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from casadi import SX, logic_and, logic_not, logic_or, sign
+from casadi import SX, fabs, logic_and, logic_not, logic_or
 
 from arthur_acausal import Component, Equations, Real, discrete, if_else, pre, smooth_if_else
 
 BACKWARD, STUCK, FORWARD, FREE, UNKNOWN = -1, 0, 1, 2, 3
 """Values of ``mode``; UNKNOWN only before the start."""
+
+HYSTERESIS = 1e-6
+"""Share of the friction by which what tears may fall once sliding has begun: its start does not chatter."""
 
 Points = tuple[tuple[float, float], ...]
 
@@ -25,71 +28,74 @@ class StickSlip(Component):
     """The state machine of an element with dry friction.
 
     Discrete: ``mode`` [1], -1 sliding backward, 0 stuck, 1 sliding forward, 2 free of friction;
-    ``start_forward``, ``start_backward`` [0 or 1], sliding begins at speed zero; ``locked`` [0 or 1], no sliding.
+    ``start_forward``, ``start_backward`` [0 or 1], sliding begins at speed zero; ``locked`` [0 or 1], no sliding;
+    ``direction`` [-1, 0, 1], the branch of the sliding friction; ``started`` [0 or 1], after the initialisation.
     """
 
     mode: Real = discrete("1", start=UNKNOWN, description="-1 backward, 0 stuck, 1 forward, 2 free")
     start_forward: Real = discrete("1", description="1: forward sliding begins at speed zero")
     start_backward: Real = discrete("1", description="1: backward sliding begins at speed zero")
     locked: Real = discrete("1", description="1: held by friction")
+    direction: Real = discrete("1", description="branch of the sliding friction; 0: locked or free")
+    started: Real = discrete("1", description="1 after the initialisation")
 
-    def branches(self, speed: SX, sa: SX, least: SX, most: SX, free: SX | None = None) -> Equations:
+    def branches(self, speed: SX, sa: SX, least: SX, most: SX, unit: SX, free: SX | None = None) -> Equations:
         """Yield the discrete equations.
 
-        ``sa``: path parameter, in the unit of the friction. ``least``: sliding friction at speed zero, ``most``: the
-        largest that sticking can hold. ``free``: where it holds there is no friction.
+        ``unit``: any speed but zero. ``sa``: path parameter, in the unit of the friction. ``least``: sliding friction
+        at speed zero, ``most``: the largest that sticking can hold. ``free``: where it holds there is no friction.
         """
-        forward, backward = truth(speed > 0), truth(speed < 0)
-        over, still_over = truth(sa > most), truth(sa > least)
-        under, still_under = truth(sa < -most), truth(sa < -least)
         is_free = truth(free) if free is not None else SX(0.0)
         was = pre(self.mode)
-        stuck, unknown, was_free = was == STUCK, was == UNKNOWN, was == FREE
-        yield (
-            self.start_forward
-            == any_of(
-                all_of(stuck, any_of(over, all_of(pre(self.start_forward), still_over))),
-                all_of(unknown, forward),
-            )
+        forward, backward = self.moving(speed, unit)
+        pull, push = self.held_by(sa)
+        kept = (1 - HYSTERESIS) * least
+        over, still_over = truth(pull > most), truth(pull > kept)
+        under, still_under = truth(push < -most), truth(push < -kept)
+        yield self.started == (was != UNKNOWN)
+        yield self.start_forward == starting(was, forward, over, still_over, pre(self.start_forward))
+        yield self.start_backward == starting(was, backward, under, still_under, pre(self.start_backward))
+        ahead, back = any_of(was == FORWARD, self.start_forward), any_of(was == BACKWARD, self.start_backward)
+        yield self.locked == logic_not(any_of(is_free, ahead, back))
+        branch = smooth_if_else(
+            self.start_backward, -1, smooth_if_else(ahead, 1, smooth_if_else(back, -1, 0))
         )
-        yield (
-            self.start_backward
-            == any_of(
-                all_of(stuck, any_of(under, all_of(pre(self.start_backward), still_under))),
-                all_of(unknown, backward),
-            )
+        yield self.direction == smooth_if_else(is_free, 0, branch)
+        released = was == FREE
+        going_back = all_of(any_of(released, back), backward)
+        sliding = smooth_if_else(
+            all_of(any_of(released, ahead), forward), FORWARD, smooth_if_else(going_back, BACKWARD, STUCK)
         )
-        moving = any_of(was == FORWARD, was == BACKWARD, self.start_forward, self.start_backward)
-        yield self.locked == logic_not(any_of(is_free, moving))
-        slides = smooth_if_else(
-            all_of(any_of(was == FORWARD, was_free, self.start_forward), forward),
-            FORWARD,
-            smooth_if_else(
-                all_of(any_of(was == BACKWARD, was_free, self.start_backward), backward), BACKWARD, STUCK
-            ),
-        )
-        yield self.mode == smooth_if_else(is_free, FREE, slides)
+        yield self.mode == smooth_if_else(is_free, FREE, sliding)
 
-    def is_forward(self) -> SX:
-        """Return whether the forward branch of the sliding friction holds."""
-        going = all_of(pre(self.mode) == FORWARD, logic_not(self.start_backward))
-        return any_of(self.start_forward, going)
+    def moving(self, speed: SX, unit: SX) -> tuple[SX, SX]:
+        """Return whether the speed is positive, negative; while locked it is rounding, whose sign makes no event."""
+        held = all_of(self.started, self.locked, self.mode == STUCK)
+        return truth(smooth_if_else(held, -unit, speed) > 0), truth(smooth_if_else(held, unit, speed) < 0)
 
-    def excess(self, speed: SX, sa: SX, most: SX) -> SX:
+    def held_by(self, sa: SX) -> tuple[SX, SX]:
+        """Return what tears at the contact forward, backward: ``sa``, but nothing while it slides.
+
+        There ``sa`` stands for the acceleration. So sticking is tried first when the speed has become zero.
+        """
+        at_rest = any_of(self.locked, self.start_forward, self.start_backward)
+        return smooth_if_else(at_rest, sa, -fabs(sa)), smooth_if_else(at_rest, sa, fabs(sa))
+
+    def excess(self, sa: SX, most: SX) -> SX:
         """Return ``sa`` without the friction of the branch: in proportion to the acceleration; 0 while locked."""
-        direction = smooth_if_else(
-            self.is_forward(),
-            1,
-            smooth_if_else(any_of(self.start_backward, pre(self.mode) == BACKWARD), -1, sign(speed)),
-        )
-        inactive = self.mode == FREE
-        sliding = sa - smooth_if_else(inactive, 0, direction) * most
-        return smooth_if_else(self.locked, 0, sliding)
+        return smooth_if_else(self.locked, 0, sa - self.direction * most)
 
     def friction(self, sa: SX, ahead: SX, back: SX) -> SX:
         """Return the friction: ``sa`` while locked, else ``ahead`` or minus ``back``, by the direction of sliding."""
-        sliding = smooth_if_else(self.is_forward(), ahead, -back)
-        return smooth_if_else(self.locked, sa, smooth_if_else(self.mode == FREE, 0, sliding))
+        sliding = smooth_if_else(self.direction > 0, ahead, smooth_if_else(self.direction < 0, -back, 0))
+        return smooth_if_else(self.locked, sa, sliding)
+
+
+def starting(was: SX, moves: SX, over: SX, still_over: SX, before: SX) -> SX:
+    """Return whether sliding begins in one direction: from rest, or at the start of the run with that speed."""
+    return any_of(
+        all_of(was == STUCK, any_of(over, all_of(before, still_over))), all_of(was == UNKNOWN, moves)
+    )
 
 
 def truth(condition: SX) -> SX:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from casadi import SX, fmax, logic_not
+from casadi import SX, fabs, fmax, logic_not
 
 from arthur_acausal import (
     Equations,
@@ -15,7 +15,16 @@ from arthur_acausal import (
     smooth_if_else,
     variable,
 )
-from arthur_acausal.components.friction import Points, StickSlip, all_of, any_of, at_zero, interpolated, truth
+from arthur_acausal.components.friction import (
+    HYSTERESIS,
+    Points,
+    StickSlip,
+    all_of,
+    any_of,
+    at_zero,
+    interpolated,
+    truth,
+)
 from arthur_acausal.components.rotational.elements import Compliant
 from arthur_acausal.components.rotational.flange import Flange
 from arthur_acausal.components.rotational.support import Supported
@@ -29,6 +38,7 @@ class _Bearing(StickSlip, Supported):
 
     flange_a = Flange()
     flange_b = Flange()
+    w_unit: Real = parameter("rad/s", default=1.0, description="what a speed of 1 in the table means")
     J_path: Real = parameter("kg*m^2", default=1.0, description="scale of sa; no effect on the motion")
     phi: Real = variable("rad", start=0.0, description="angle of the shaft over the housing")
     w: Real = variable("rad/s", start=0.0, state_select="prefer", description="its speed")
@@ -44,8 +54,8 @@ class _Bearing(StickSlip, Supported):
         yield self.w == der(self.phi)
         yield self.a == der(self.w)
         yield "torque balance", self.flange_a.tau + self.flange_b.tau == self.tau
-        yield from self.branches(self.w, self.sa, least, most, free)
-        yield "stuck or sliding", self.J_path * self.a == self.excess(self.w, self.sa, most)
+        yield from self.branches(self.w, self.sa, least, most, self.w_unit, free)
+        yield "stuck or sliding", self.J_path * self.a == self.excess(self.sa, most)
         yield "friction torque", self.tau == self.friction(self.sa, ahead, back)
         yield self.P_loss == self.tau * self.w
         if self.use_support:
@@ -63,7 +73,6 @@ class BearingFriction(_Bearing):
     peak: Real = parameter(
         "1", default=1.0, min=1.0, description="largest torque at rest over that of tau_pos at 0"
     )
-    w_unit: Real = parameter("rad/s", default=1.0, description="what a speed of 1 in tau_pos means")
     tau_unit: Real = parameter("N*m", default=1.0, description="what a torque of 1 in tau_pos means")
 
     def equations(self) -> Equations:
@@ -86,7 +95,6 @@ class Brake(_Bearing):
     f_n_max: Real = parameter("N", min=0.0, description="largest normal force")
     c_geo: Real = parameter("m", default=1.0, min=0.0, description="radius at which the friction acts")
     peak: Real = parameter("1", default=1.0, min=1.0, description="largest coefficient at rest over mu(0)")
-    w_unit: Real = parameter("rad/s", default=1.0, description="what a speed of 1 in mu_pos means")
     f_n: Real = variable("N", description="normal force")
 
     def equations(self) -> Equations:
@@ -129,8 +137,8 @@ class Clutch(StickSlip, Compliant):
         ahead = torque * interpolated(self.mu_pos, self.w_rel / self.w_unit)
         back = torque * interpolated(self.mu_pos, -self.w_rel / self.w_unit)
         most = self.peak * least
-        yield from self.branches(self.w_rel, self.sa, least, most, self.f_n <= 0)
-        yield "stuck or sliding", self.J_path * self.a_rel == self.excess(self.w_rel, self.sa, most)
+        yield from self.branches(self.w_rel, self.sa, least, most, self.w_unit, self.f_n <= 0)
+        yield "stuck or sliding", self.J_path * self.a_rel == self.excess(self.sa, most)
         yield "friction torque", self.tau == self.friction(self.sa, ahead, back)
         yield self.P_loss == self.tau * self.w_rel
 
@@ -162,6 +170,7 @@ class OneWayClutch(Compliant):
     stuck: Real = discrete("1", start=-1.0, description="1: no relative speed")
     start_forward: Real = discrete("1", description="1: sliding begins at speed zero")
     locked: Real = discrete("1", description="1: the flanges turn together")
+    started: Real = discrete("1", description="1 after the initialisation")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -179,9 +188,17 @@ class OneWayClutch(Compliant):
         yield self.P_loss == smooth_if_else(self.stuck, 0, self.tau * self.w_rel)
 
     def _branches(self, least: SX, most: SX) -> Equations:
-        over, still_over, ahead = truth(self.sa > most), truth(self.sa > least), truth(self.w_rel > 0)
+        held = all_of(
+            self.locked, pre(self.stuck) == 1
+        )  # the speed is rounding, whose sign would make events
+        speed = smooth_if_else(held, -self.w_unit, self.w_rel)
+        pull = smooth_if_else(
+            any_of(self.locked, self.start_forward), self.sa, -fabs(self.sa)
+        )  # sticking is tried first
+        over, still_over, ahead = truth(pull > most), truth(pull > (1 - HYSTERESIS) * least), truth(speed > 0)
         was_stuck, unknown = pre(self.stuck) == 1, pre(self.stuck) == -1
         leaving = any_of(over, all_of(pre(self.start_forward), still_over))
+        yield self.started == (pre(self.stuck) != -1)
         yield self.start_forward == any_of(all_of(was_stuck, leaving), all_of(unknown, ahead))
         yield self.locked == all_of(was_stuck, logic_not(self.start_forward))
         yield self.stuck == any_of(self.locked, logic_not(ahead))

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from casadi import SX, fabs, logic_not
 
-from arthur_acausal import Equations, Real, der, discrete, parameter, pre, smooth_if_else, variable
+from arthur_acausal import Equations, Real, der, parameter, pre, smooth_if_else, variable
 from arthur_acausal.components.friction import (
     BACKWARD,
     FORWARD,
+    HYSTERESIS,
     STUCK,
     UNKNOWN,
+    StickSlip,
     all_of,
     any_of,
     interpolated,
+    starting,
     truth,
 )
 from arthur_acausal.components.rotational.flange import Flange
@@ -67,13 +70,13 @@ class IdealGearR2T(Supported):
             yield self.support_t.f + t.f == 0
 
 
-class LossyGear(Supported):
+class LossyGear(StickSlip, Supported):
     """A gear with mesh efficiency and bearing friction, which may lock.
 
     ``losses``: tuple of (speed / ``w_unit``, eta_1, eta_2, tau_1 / ``tau_unit``, tau_2 / ``tau_unit``), speeds |w_a|
     from 0 on, linear between and beyond: the efficiency of the mesh and the friction of all bearings over flange_a,
     1 where flange_a drives, 2 where flange_b drives. ``tau_loss`` [N m]: the torque lost, over flange_a.
-    ``mode``: -1 backward, 0 stuck, 1 forward, 2 without losses. Pelchen, Schweiger and Otter (2002), "Modeling and
+    Pelchen, Schweiger and Otter (2002), "Modeling and
     simulating the efficiency of gearboxes and of planetary gearboxes"; the driving side at rest by Bertsch (2009), as
     in the Modelica Standard Library 4.1.
     """
@@ -93,10 +96,6 @@ class LossyGear(Supported):
     tau_forward: Real = variable("N*m", description="what is lost where the gear turns forward")
     tau_backward: Real = variable("N*m", description="what is lost where the gear turns backward")
     P_loss: Real = variable("W", description="power turned to heat")
-    mode: Real = discrete("1", start=UNKNOWN, description="-1 backward, 0 stuck, 1 forward, 2 without losses")
-    start_forward: Real = discrete("1", description="1: forward rolling begins at speed zero")
-    start_backward: Real = discrete("1", description="1: backward rolling begins at speed zero")
-    locked: Real = discrete("1", description="1: held by friction")
 
     def equations(self) -> Equations:
         a, b = self.flange_a, self.flange_b
@@ -125,18 +124,14 @@ class LossyGear(Supported):
         """Yield the loss on both branches, by the side that drives, and the one that holds."""
         tau = self.flange_a.tau
         eta_1, eta_2, tau_1, tau_2, bearing = self._mesh(fabs(self.w_a))
-        direction = smooth_if_else(self._is_forward(), 1, -1)
-        driving = truth(tau - smooth_if_else(self.locked, 0, direction) * bearing >= 0)
+        driving = truth(tau - self.direction * bearing >= 0)
         lost_1, lost_2 = (1 - eta_1) * tau, (1 - 1 / eta_2) * tau
         yield self.tau_forward == smooth_if_else(driving, lost_1 + tau_1, lost_2 + tau_2)
         yield self.tau_backward == smooth_if_else(driving, lost_2 - tau_2, lost_1 - tau_1)
-        rolling = smooth_if_else(self._is_forward(), self.tau_forward, self.tau_backward)
+        rolling = smooth_if_else(self.direction < 0, self.tau_backward, self.tau_forward)
         yield "torque lost", self.tau_loss == smooth_if_else(self.locked, self.sa, rolling)
         excess = smooth_if_else(self.locked, 0, self.sa - self.tau_loss)
         yield "stuck or rolling", self.J_path * self.a_a == excess
-
-    def _is_forward(self) -> SX:
-        return any_of(self.start_forward, pre(self.mode) == FORWARD)
 
     def _branches(self) -> Equations:
         """Yield the state machine; what can be held at rest follows from the losses at speed zero."""
@@ -145,18 +140,18 @@ class LossyGear(Supported):
         lost_1, lost_2 = (1 - eta_1) * tau, (1 - 1 / eta_2) * tau
         most = smooth_if_else(tau - bearing > 0, lost_1 + tau_1, lost_2 + tau_2)
         least = smooth_if_else(tau + bearing > 0, lost_2 - tau_2, lost_1 - tau_1)
-        forward, backward = truth(self.w_a > 0), truth(self.w_a < 0)
-        over, under = truth(self.sa > most), truth(self.sa < least)
         was = pre(self.mode)
-        stuck, unknown = was == STUCK, was == UNKNOWN
-        yield self.start_forward == any_of(all_of(stuck, over), all_of(unknown, forward))
-        yield self.start_backward == any_of(all_of(stuck, under), all_of(unknown, backward))
-        moving = any_of(was == FORWARD, was == BACKWARD, self.start_forward, self.start_backward)
-        yield self.locked == logic_not(moving)
-        back = all_of(any_of(was == BACKWARD, self.start_backward), backward)
-        yield (
-            self.mode
-            == smooth_if_else(
-                all_of(self._is_forward(), forward), FORWARD, smooth_if_else(back, BACKWARD, STUCK)
-            )
+        forward, backward = self.moving(self.w_a, self.w_unit)
+        pull, push = self.held_by(self.sa)
+        over, under = truth(pull > most), truth(push < least)
+        still_over = truth(pull > most - HYSTERESIS * fabs(most))
+        still_under = truth(push < least + HYSTERESIS * fabs(least))
+        yield self.started == (was != UNKNOWN)
+        yield self.start_forward == starting(was, forward, over, still_over, pre(self.start_forward))
+        yield self.start_backward == starting(was, backward, under, still_under, pre(self.start_backward))
+        ahead, back = any_of(was == FORWARD, self.start_forward), any_of(was == BACKWARD, self.start_backward)
+        yield self.locked == logic_not(any_of(ahead, back))
+        yield self.direction == smooth_if_else(ahead, 1, smooth_if_else(back, -1, 0))
+        yield self.mode == smooth_if_else(
+            all_of(ahead, forward), FORWARD, smooth_if_else(all_of(back, backward), BACKWARD, STUCK)
         )
