@@ -6,6 +6,7 @@ from collections import deque
 from itertools import pairwise
 
 from arthur_acausal.errors import SimulationError
+from arthur_acausal.solve.options import SolverOptions
 
 SHRINKING = 5  # so many intervals in a row, each shorter than the one before, are a series that accumulates
 
@@ -13,11 +14,11 @@ SHRINKING = 5  # so many intervals in a row, each shorter than the one before, a
 class Accumulation:
     """Watches the times of state events of one run."""
 
-    def __init__(self, duration: float, zeno_interval: float, chattering_events: int, window: float) -> None:
-        self._shortest = zeno_interval * duration
-        self._window = window * duration
-        self._times: deque[float] = deque(maxlen=max(chattering_events, SHRINKING + 2))
-        self._most = chattering_events
+    def __init__(self, duration: float, options: SolverOptions) -> None:
+        self._shortest = options.zeno_interval * duration
+        self._window = options.chattering_window * duration
+        self._most = options.chattering_events
+        self._times: deque[float] = deque(maxlen=max(self._most, SHRINKING + 2))
 
     def add(self, t: float, label: str) -> None:
         """Note a state event at t; SimulationError if the events accumulate or chatter."""

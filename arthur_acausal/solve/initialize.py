@@ -8,7 +8,7 @@ import numpy as np
 
 from arthur_acausal.errors import InitializationError
 from arthur_acausal.solve.conditions import Conditions, choose
-from arthur_acausal.solve.consistent import ConsistentSystem
+from arthur_acausal.solve.consistent import ConsistentSystem, Index
 from arthur_acausal.solve.diagnosis import listed, null_vectors, scaled_rows
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.newton import Solved
@@ -88,7 +88,7 @@ def failure(
     if solved.reason == "not finite" or bad.size:
         return InitializationError(
             f"at t = {evaluator.t[0]:g} s these have no finite value: {listed([rows[i] for i in bad.tolist()], '; ')}",
-            cause=f"the values are {_values(dae, evaluator, system)}",
+            cause=f"the values there are {_values(dae, evaluator, bad)}",
             remedy=remedy,
         )
     matrix, scale = system.matrix(), system.scale()
@@ -112,8 +112,12 @@ def failure(
     )
 
 
-def _values(dae: DAE, evaluator: Evaluator, system: ConsistentSystem) -> str:
-    return listed([f"{dae.y_paths[j]} = {evaluator.y[j]:.6g}" for j in system.free.tolist()])
+def _values(dae: DAE, evaluator: Evaluator, rows: Index) -> str:
+    """The values of the unknowns in some rows of F; of all where there are none."""
+    columns = np.repeat(np.arange(dae.n), np.diff(dae.sparsity.colind))
+    present = np.unique(columns[np.isin(dae.sparsity.row, rows)])
+    chosen = present.tolist() or range(dae.n)
+    return listed([f"{dae.y_paths[j]} = {evaluator.y[j]:.6g}" for j in chosen])
 
 
 def _undetermined(dae: DAE, conditions: Conditions) -> InitializationError:

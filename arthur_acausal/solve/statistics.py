@@ -26,7 +26,8 @@ class Statistics:
     events, state_events, time_events : instants at which something happened, and the two kinds.
     initial_iterations : Newton iterations of the initialisation.
     event_iterations : Newton iterations of all events.
-    initialize_s, integrate_s, events_s, output_s, total_s : wall time of the phases, s.
+    load_s : wall time of loading IDA's and SciPy's libraries, s; once a process.
+    initialize_s, integrate_s, events_s, output_s, total_s : wall time of the phases and of all, s.
     messages : notices for the user.
     """
 
@@ -44,6 +45,7 @@ class Statistics:
     time_events: int = 0
     initial_iterations: int = 0
     event_iterations: int = 0
+    load_s: float = 0.0
     initialize_s: float = 0.0
     integrate_s: float = 0.0
     events_s: float = 0.0
