@@ -17,6 +17,7 @@ from arthur_acausal.units import Unit, format_dimension, parse_unit
 if TYPE_CHECKING:
     from arthur_acausal.result.solution import Solution
 
+LONGEST_NAME = 24  # characters that fit beside a panel
 MOST_LINES = 28  # in one panel: as many as there are pairs of colour and style
 
 Lines: TypeAlias = str | Iterable[str] | Mapping[str, str]
@@ -96,9 +97,16 @@ def magnitude(values: FloatArray) -> float:
 
 
 def common_name(solution: Solution, paths: Sequence[str]) -> str:
-    """What all these variables are: the description or the last part of the path that they share."""
+    """What all these variables are: the short description they share, or their quantity, or last name."""
     described = {solution.description(path) for path in paths}
-    for names in (described, {path.rpartition(".")[2] for path in paths}):
-        if len(names) == 1 and names != {""}:
-            return names.pop()
+    kinds = {quantity(solution.unit(path)) for path in paths}
+    for names in (described, kinds, {path.rpartition(".")[2] for path in paths}):
+        if len(names) == 1 and 0 < len(name := names.pop()) <= LONGEST_NAME:
+            return name
     return ""
+
+
+def quantity(unit: str) -> str:
+    """What is measured in a unit: "pressure"; empty where that is not known or not certain."""
+    known = re.search(r"\((.*), ", format_dimension(parse_unit(unit).dimension))
+    return known[1] if known and " or " not in known[1] else ""

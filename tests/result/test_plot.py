@@ -29,11 +29,15 @@ def test_one_panel_for_each_unit_as_people_read_it() -> None:
         "velocity [km/h]",
         "gravity [m/s²]",
         "pressure at port a [bar]",
-        "Winkelgeschwindigkeit — schnell [rpm]",
+        "ω [rpm]",
     ]
     pressure = figure.axes[3].lines[1]
     np.testing.assert_allclose(np.asarray(pressure.get_ydata()), bounce()["valves[1].port_a.p"] / 1e5)
     assert pressure.get_label() == "valves[1].port_a.p"
+
+
+def test_different_variables_of_one_unit_are_named_by_the_quantity() -> None:
+    assert labels(bounce().plot(["ball.h", "floor.gap"])) == ["length [m]"]
 
 
 def test_lines_differ_in_colour_and_in_style() -> None:
