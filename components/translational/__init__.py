@@ -5,33 +5,58 @@ from arthur_acausal.components.translational.elements import (
     Damper,
     Fixed,
     Mass,
+    Rod,
+    SlidingMass,
     Spring,
     SpringDamper,
 )
 from arthur_acausal.components.translational.flange import Flange
-from arthur_acausal.components.translational.sensors import ForceSensor, PositionSensor, SpeedSensor
+from arthur_acausal.components.translational.friction import Brake, MassWithFriction, SupportFriction
+from arthur_acausal.components.translational.sensors import (
+    AccelerationSensor,
+    ForceSensor,
+    PositionSensor,
+    PowerSensor,
+    RelativePositionSensor,
+    RelativeSpeedSensor,
+    SpeedSensor,
+)
 from arthur_acausal.components.translational.sources import (
+    ConstantForce,
+    ConstantSpeed,
     ForceSource,
     LoadForce,
     PositionSource,
     SpeedSource,
 )
-from arthur_acausal.components.translational.stops import ElastoGap
+from arthur_acausal.components.translational.stops import ElastoGap, EndStops
 
 __all__ = [
+    "AccelerationSensor",
+    "Brake",
     "Compliant",
+    "ConstantForce",
+    "ConstantSpeed",
     "Damper",
     "ElastoGap",
+    "EndStops",
     "Fixed",
     "Flange",
     "ForceSensor",
     "ForceSource",
     "LoadForce",
     "Mass",
+    "MassWithFriction",
     "PositionSensor",
     "PositionSource",
+    "PowerSensor",
+    "RelativePositionSensor",
+    "RelativeSpeedSensor",
+    "Rod",
+    "SlidingMass",
     "SpeedSensor",
     "SpeedSource",
     "Spring",
     "SpringDamper",
+    "SupportFriction",
 ]

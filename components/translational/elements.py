@@ -25,6 +25,40 @@ class Mass(Component):
         yield self.E_kinetic == self.m * self.v**2 / 2
 
 
+class SlidingMass(Component):
+    """A sliding mass of length ``L`` [m] with a flange at either end; ``s`` is its middle.
+
+    States: ``s`` [m], ``v`` [m/s]. Parameters: ``m`` [kg], ``L`` [m].
+    """
+
+    flange_a = Flange()
+    flange_b = Flange()
+    m: Real = parameter("kg", min=0.0, description="mass")
+    L: Real = parameter("m", default=0.0, description="length from flange_a to flange_b")
+    s: Real = variable("m", start=0.0, description="position of the middle")
+    v: Real = variable("m/s", start=0.0, description="velocity")
+    E_kinetic: Real = variable("J", description="kinetic energy")
+
+    def equations(self) -> Equations:
+        yield self.flange_a.s == self.s - self.L / 2
+        yield self.flange_b.s == self.s + self.L / 2
+        yield self.v == der(self.s)
+        yield "Newton's second law", self.m * der(self.v) == self.flange_a.f + self.flange_b.f
+        yield self.E_kinetic == self.m * self.v**2 / 2
+
+
+class Rod(Component):
+    """A massless rigid rod of length ``L`` [m] from flange_a to flange_b."""
+
+    flange_a = Flange()
+    flange_b = Flange()
+    L: Real = parameter("m", default=0.0)
+
+    def equations(self) -> Equations:
+        yield self.flange_b.s == self.flange_a.s + self.L
+        yield self.flange_a.f + self.flange_b.f == 0
+
+
 class Compliant(Component):
     """What all massless elements between two flanges share: ``s_rel`` [m], the elongation, and one force [N].
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from arthur_acausal import Component, Equations, Real, der, real_input, real_output, variable
+from arthur_acausal import Component, Equations, Real, der, parameter, real_input, real_output, variable
 from arthur_acausal.components.translational.flange import Flange
 
 
@@ -14,6 +14,16 @@ class ForceSource(Component):
 
     def equations(self) -> Equations:
         yield self.flange.f == -self.f
+
+
+class ConstantForce(Component):
+    """A constant force ``f_constant`` [N] that pushes the connected component in the direction of positive s."""
+
+    flange = Flange()
+    f_constant: Real = parameter("N")
+
+    def equations(self) -> Equations:
+        yield self.flange.f == -self.f_constant
 
 
 class LoadForce(Component):
@@ -51,3 +61,15 @@ class PositionSource(Component):
 
     def equations(self) -> Equations:
         yield self.flange.s == self.s
+
+
+class ConstantSpeed(Component):
+    """Moves its flange with the constant velocity ``v_constant`` [m/s]. State: ``s`` [m]."""
+
+    flange = Flange()
+    v_constant: Real = parameter("m/s")
+    s: Real = variable("m", start=0.0, fixed=True, state_select="prefer")
+
+    def equations(self) -> Equations:
+        yield self.flange.s == self.s
+        yield der(self.s) == self.v_constant

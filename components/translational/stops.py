@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import casadi
 
-from arthur_acausal import Equations, Real, der, if_else, parameter, variable
+from arthur_acausal import Component, Equations, Real, der, if_else, parameter, variable
 from arthur_acausal.components.translational.elements import Compliant
+from arthur_acausal.components.translational.flange import Flange
 
 
 class ElastoGap(Compliant):
@@ -32,3 +33,32 @@ class ElastoGap(Compliant):
         limited = casadi.fmin(casadi.fmax(self.d * self.v_rel, self.f_c), -self.f_c)
         yield "damper in contact", self.f_d == limited
         yield self.f == self.f_c + self.f_d
+
+
+class EndStops(Component):
+    """Two stops on the ground that keep a flange between ``s_min`` and ``s_max`` [m]: springs with dampers.
+
+    Beyond a stop the force is c depth + d v, where the damper neither pulls nor exceeds the spring's own force in
+    amount. Contact onset and end are events. ``f`` [N]: force on the flange, positive at the lower stop.
+    """
+
+    flange = Flange()
+    s_min: Real = parameter("m")
+    s_max: Real = parameter("m")
+    c: Real = parameter("N/m", default=1e8, min=0.0, description="stiffness of a stop")
+    d: Real = parameter("N*s/m", default=1e4, min=0.0, description="damping of a stop")
+    v: Real = variable("m/s", description="velocity of the flange")
+    depth: Real = variable(
+        "m", description="deflection, positive at the upper stop, negative at the lower one"
+    )
+    f: Real = variable("N", description="force on the flange")
+
+    def equations(self) -> Equations:
+        s = self.flange.s
+        yield self.v == der(s)
+        below = if_else(s < self.s_min, s - self.s_min, 0)
+        yield self.depth == if_else(s > self.s_max, s - self.s_max, below)
+        spring, wanted = self.c * self.depth, self.d * self.v
+        size = casadi.fabs(spring)
+        yield "stops", self.f == -(spring + casadi.fmin(casadi.fmax(wanted, -size), size))
+        yield self.flange.f + self.f == 0
