@@ -1,8 +1,9 @@
 """Running the documents: Python blocks in one namespace a page, `arthur` commands in the same folder.
 
 A block ``python`` is run; what it prints stands in a block ``text`` directly below. ``python raises``: it must end
-with an error of Arthur, whose class and text are then the output. ``python file=NAME``: it is written to that file
-first. ``python norun`` is not run. In a block ``console`` each ``$ arthur ...`` is run; other commands are not.
+with an error of Arthur, whose class and text are then the output. ``python norun`` is not run. ``file=NAME``: a block
+of any kind is written to that file first. In a block ``console`` each ``$ arthur ...`` and ``$ python FILE`` is run;
+other commands are not.
 ``console head=9`` shows the first nine lines of each output only.
 """
 
@@ -11,6 +12,7 @@ from __future__ import annotations
 import contextlib
 import io
 import re
+import runpy
 import shlex
 import sys
 from collections.abc import Iterator
@@ -90,6 +92,8 @@ def run_blocks(page: list[Block], namespace: dict[str, Any], folder: Path) -> It
                 yield Ran(output.line, what, output.text, printed, output.start, output.end)
         elif block.kind == "console":
             yield from run_commands(block)
+        elif block.option("file"):
+            (folder / block.option("file")).write_text(block.text, encoding="utf-8")
 
 
 def run_python(block: Block, namespace: dict[str, Any], folder: Path) -> str:
@@ -120,13 +124,29 @@ def run_commands(block: Block) -> Iterator[Ran]:
         command = match[1].replace("\\\n", " ")
         end = following.start() if following else len(block.text)
         said = block.text[match.end() : end]
-        if not command.startswith("arthur "):
+        program, *arguments = shlex.split(command)
+        if program == "arthur":
+            printed, failed = run_arthur(arguments)
+        elif program == "python":
+            printed, failed = run_script(arguments[0]), False
+        else:
             continue
-        result = CliRunner().invoke(app, shlex.split(command)[1:], prog_name="arthur")
-        if result.exception is not None and not isinstance(result.exception, SystemExit):
-            raise result.exception
         line = block.line + block.text.count("\n", 0, match.end())
         place = block.start + match.end(), block.start + end
-        yield Ran(
-            line, command, said, result.output, *place, result.exit_code != 0, int(block.option("head") or 0)
-        )
+        yield Ran(line, command, said, printed, *place, failed, int(block.option("head") or 0))
+
+
+def run_arthur(arguments: list[str]) -> tuple[str, bool]:
+    """Run the command line; return what it printed, and whether it failed."""
+    result = CliRunner().invoke(app, arguments, prog_name="arthur")
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    return result.output, result.exit_code != 0
+
+
+def run_script(file: str) -> str:
+    """Run a Python file; return what it printed."""
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        runpy.run_path(file, run_name="__main__")
+    return printed.getvalue()
