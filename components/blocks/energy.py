@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any, cast
 
 from casadi import SX
@@ -23,7 +22,9 @@ class EnergyMeter(Component):
     @classmethod
     def of(cls, n: int) -> type[EnergyMeter]:
         """Return the meter with ``n`` inputs."""
-        return _with_inputs(cls, n)
+        if (cls, n) not in _MADE:
+            _MADE[cls, n] = _with_inputs(cls, n)
+        return _MADE[cls, n]
 
     def inputs(self) -> list[SX]:
         """Return the input signals."""
@@ -33,7 +34,10 @@ class EnergyMeter(Component):
         yield der(self.E) == sum(self.inputs(), SX(0.0))
 
 
-@cache
+_MADE: dict[tuple[type[EnergyMeter], int], type[EnergyMeter]] = {}
+"""The classes made by ``of``."""
+
+
 def _with_inputs(meter: type[EnergyMeter], n: int) -> type[EnergyMeter]:
     body: dict[str, Any] = {f"P_{i}": real_input("W") for i in range(n)}
     return cast(

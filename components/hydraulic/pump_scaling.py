@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
-from typing import Generic, TypeVar
+from typing import TypeAlias
 
 from casadi import SX
 
-Number = TypeVar("Number", float, SX)
+Number: TypeAlias = "float | SX"
 
 GPM = 1 / 15852
 """One US gallon a minute [m^3/s] with the report's rounded factor."""
@@ -17,7 +17,7 @@ GPM_EXACT = 231 * 0.0254**3 / 60
 
 
 @dataclass(frozen=True, slots=True)
-class PumpSize(Generic[Number]):
+class PumpSize:
     """Displacement ``D`` [m^3/turn], torque constant ``c_L`` [m^3], inertia ``J`` [kg m^2], pitch radius."""
 
     D: Number
@@ -28,7 +28,7 @@ class PumpSize(Generic[Number]):
 
 def pump_scaling(
     Q_req: Number, N_0: Number, *, eta_v: Number | float = 0.85, rho_gear: Number | float = 7750.0
-) -> PumpSize[Number]:
+) -> PumpSize:
     """Size a pump for the flow ``Q_req`` [m^3/s] at the speed ``N_0`` [rad/s].
 
     The volumetric efficiency ``eta_v`` [1] is assumed: 0.85 in the report's Table 6 and code, 0.7 in its
@@ -42,7 +42,7 @@ def consistent_displacement(Q_req: Number, N_0: Number, dp: Number, R_G: Number,
     return (Q_req + dp / R_G) / (N_0 / (2 * pi)) + 1 / RR_G
 
 
-def gear_size(D: Number, *, rho_gear: Number | float = 7750.0) -> PumpSize[Number]:
+def gear_size(D: Number, *, rho_gear: Number | float = 7750.0) -> PumpSize:
     """Return the pump of displacement ``D`` [m^3] whose gears are similar to the report's (5.15 to 5.20).
 
     Addendum and dedendum 0.1 r_p, width 1.25 r_p; the inertia is that of both gears as cylinders.

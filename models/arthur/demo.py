@@ -8,7 +8,8 @@ from functools import partial
 from math import pi
 from typing import TypeVar
 
-from casadi import SX, exp, sin
+import casadi
+from casadi import SX
 
 from arthur_acausal import Equations, Real, connect, parameter, time
 from arthur_acausal.components.blocks import Source
@@ -39,6 +40,16 @@ JOINTS = (Joint(0.0165, 50.0, pi / 2), Joint(0.044, 120.0, 0.0), Joint(0.0495, 1
 """Abduction, hip and knee. Loads swing from ``HOLD`` to twice ``force`` more in phase with the current: they resist."""
 LEG_PHASE = (0.0, pi, pi, 0.0)
 """Front left, front right, hind left, hind right [rad]: a trot moves diagonal legs together."""
+
+
+def exp(x: Number) -> Number:
+    """Return e^x; CasADi's function takes floats as well, which its types do not say."""
+    return casadi.exp(x)  # pyright: ignore[reportReturnType]
+
+
+def sin(x: Number) -> Number:
+    """Return sin(x)."""
+    return casadi.sin(x)  # pyright: ignore[reportReturnType]
 
 
 def rise(t: Number, amplitude: float | Number, T: float | Number) -> Number:

@@ -18,9 +18,11 @@ class BetweenPressures(Component):
     """A component with two ports between two given pressures: inputs ``a.p``, ``b.p`` [Pa]."""
 
     fluid: Fluid = Fluid(constant_density=True)
-    a: ControlledPressureSource = ControlledPressureSource(fluid=lambda self: self.fluid)
-    b = ControlledPressureSource()
     part: TwoPort = Orifice(area=1e-6)
+    b = ControlledPressureSource()
+
+    def build(self) -> None:
+        self.a = ControlledPressureSource(fluid=self.fluid)
 
     def equations(self) -> Equations:
         yield connect(self.a.port, self.part.port_a)
@@ -33,7 +35,9 @@ class Discharge(Component):
     fluid: Fluid = Fluid(constant_density=True)
     volume: Volume = Volume(V=1e-3)
     part: TwoPort = Orifice(area=1e-6)
-    tank: Tank = Tank(p=0.0, fluid=lambda self: self.fluid)
+
+    def build(self) -> None:
+        self.tank = Tank(p=0.0, fluid=self.fluid)
 
     def equations(self) -> Equations:
         yield connect(self.volume.port, self.part.port_a)
@@ -45,10 +49,12 @@ class ValveBetweenPressures(Component):
 
     fluid: Fluid = Fluid()
     valve: ServoValve = ServoValve()
-    p: ControlledPressureSource = ControlledPressureSource(fluid=lambda self: self.fluid)
     t = ControlledPressureSource()
     a = ControlledPressureSource()
     b = ControlledPressureSource()
+
+    def build(self) -> None:
+        self.p = ControlledPressureSource(fluid=self.fluid)
 
     def equations(self) -> Equations:
         yield connect(self.p.port, self.valve.port_p)

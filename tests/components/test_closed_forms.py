@@ -27,8 +27,7 @@ PRECISE = SolverOptions(rtol=1e-10, intervals=1000)
 class Divider(Component):
     """Two orifices in series between two pressures."""
 
-    fluid: Fluid = Fluid(rho=870.0)
-    supply: PressureSource = PressureSource(p=200e5, fluid=lambda self: self.fluid)
+    supply: PressureSource = PressureSource(p=200e5, fluid=Fluid(rho=870.0))
     first: Orifice = Orifice(area=2e-6)
     second: Orifice = Orifice(area=1e-6)
     sink: PressureSource = PressureSource(p=0.0)
@@ -189,8 +188,9 @@ class Pipeline(Component):
     """A frictionless line from a constant pressure to a valve that is shut: port_b stays open-ended."""
 
     n: int = 100
-    fluid: Fluid = Fluid(rho=870.0, beta=870.0 * 1200.0**2, constant_density=True)
-    source: PressureSource = PressureSource(p=50e5, fluid=lambda self: self.fluid)
+    source: PressureSource = PressureSource(
+        p=50e5, fluid=Fluid(rho=870.0, beta=870.0 * 1200.0**2, constant_density=True)
+    )
 
     def build(self) -> None:
         self.line = Line(n=self.n, L=100.0, d=0.05, friction="none", volume_b=True)
