@@ -1,0 +1,1 @@
+"""Models of reference cases, each built from the component library by ``connect``."""
