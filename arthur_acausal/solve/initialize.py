@@ -8,10 +8,10 @@ import numpy as np
 
 from arthur_acausal.errors import InitializationError
 from arthur_acausal.solve.conditions import Conditions, choose
-from arthur_acausal.solve.consistent import ConsistentSystem, Index
+from arthur_acausal.solve.consistent import ConsistentSystem
 from arthur_acausal.solve.diagnosis import listed, null_vectors, scaled_rows
 from arthur_acausal.solve.modes import Modes
-from arthur_acausal.solve.newton import Solved
+from arthur_acausal.solve.newton import Index, Solved
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator, FloatArray
 
