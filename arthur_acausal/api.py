@@ -34,6 +34,8 @@ class Translation:
     structured: StructuredDAE = field(repr=False)
     dae: CompiledDAE = field(repr=False)
     seconds: Mapping[str, float] = field(repr=False)
+    compile: str = field(default="auto", repr=False)
+    _variants: dict[frozenset[int], CompiledDAE] = field(default_factory=dict, repr=False)
 
     @cached_property
     def report(self) -> StructureReport:
@@ -78,7 +80,15 @@ class Translation:
             inputs=inputs,
             start=start,
             progress=progress,
+            variant=self._variant,
         )
+
+    def _variant(self, dummies: frozenset[int]) -> CompiledDAE:
+        """Return the system compiled for another set of dummy derivatives, to continue a run; made once."""
+        if dummies not in self._variants:
+            other = transform(self.flat, dummies)
+            self._variants[dummies] = generate(other, compile=self.compile, continuation=True)
+        return self._variants[dummies]
 
     def verify(self, solution: Solution) -> Verification:
         """Evaluate every raw equation of the model, before any elimination, on a solution of it."""
@@ -136,7 +146,7 @@ def translate(
         "transform": transformed - flattened,
         "codegen": done - transformed,
     }
-    return Translation(model, flat, structured, dae, seconds)
+    return Translation(model, flat, structured, dae, seconds, compile)
 
 
 def simulate(model: Component, stop_time: float, **arguments: Any) -> Solution:

@@ -80,7 +80,7 @@ def assemble(dae: StructuredDAE, n_starts: int) -> Assembly:
         SX.sym("u", len(flat.inputs)),
         SX.sym("z", len(flat.scope.discrete)),
         SX.sym("zp", len(flat.scope.discrete)),
-        SX.sym("m", len(flat.relations)),
+        SX.sym("m", len(flat.relations) + (dae.reduced.sets is not None)),
     )
     values: list[SX] = [SX(0.0)] * len(nodes.all)
     y, yp = elements(arguments.y), elements(arguments.yp)

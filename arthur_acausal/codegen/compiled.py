@@ -2,91 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from arthur_acausal.codegen.kernel import Kernel
 from arthur_acausal.codegen.parameters import ParameterTable
 from arthur_acausal.codegen.recovery import Recovery
-from arthur_acausal.errors import ParameterError, nearest
+from arthur_acausal.codegen.switching import RootsWithMargin
+from arthur_acausal.codegen.tables import (
+    Assignment,
+    Attributes,
+    BoolArray,
+    FloatArray,
+    Pattern,
+    Relation,
+    StartEntry,
+    WhenClause,
+)
+from arthur_acausal.errors import ParameterError, nearest_or_all
+from arthur_acausal.transform.state_sets import StateSets
 from arthur_acausal.units import to_si
-
-FloatArray = NDArray[np.float64]
-BoolArray = NDArray[np.bool_]
-IntArray = NDArray[np.int32]
-
-
-@dataclass(frozen=True, slots=True)
-class Relation:
-    """A comparison that makes events: true where root function g > 0, or >= 0 if ``inclusive``."""
-
-    label: str
-    where: str
-    inclusive: bool
-    time_only: bool
-
-
-@dataclass(frozen=True, slots=True)
-class WhenClause:
-    """One ``when``: carried out when its condition becomes true."""
-
-    label: str
-    where: str
-
-
-@dataclass(frozen=True, slots=True)
-class Assignment:
-    """What an event changes: ``when`` is the clause's number, -1 for a discrete equation, which always holds."""
-
-    kind: Literal["state", "discrete", "terminate"]
-    index: int
-    when: int
-    message: str
-    label: str
-
-
-@dataclass(frozen=True, slots=True)
-class Pattern:
-    """A sparsity pattern in compressed columns: rows of column j are row[colind[j]:colind[j + 1]]."""
-
-    colind: IntArray
-    row: IntArray
-
-    @property
-    def nnz(self) -> int:
-        """How many structural nonzeros there are."""
-        return len(self.row)
-
-
-@dataclass(frozen=True, slots=True)
-class Attributes:
-    """Attributes of y, each (n,), for one vector of parameters; ``z_start`` (nz,) of the discrete variables."""
-
-    start: FloatArray
-    fixed: BoolArray
-    start_given: BoolArray
-    nominal: FloatArray
-    min: FloatArray
-    max: FloatArray
-    z_start: FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class StartEntry:
-    """A start value kept behind the parameters in p: of y[index] (-1: of no y), times ``sign``."""
-
-    path: str
-    index: int
-    sign: int
-    fixed: bool
-    unit: str
-    place: int
 
 
 @dataclass(frozen=True)
@@ -122,6 +62,8 @@ class CompiledDAE:
     pivot_labels: list[str] = field(repr=False)
     functions: dict[str, ca.Function] = field(repr=False)
     recovery: Recovery = field(repr=False)
+    sets: StateSets | None = field(repr=False)
+    dummies: frozenset[int] = field(repr=False)
 
     @property
     def n(self) -> int:
@@ -164,7 +106,9 @@ class CompiledDAE:
     def _start_entry(self, path: str) -> tuple[int, int]:
         if path not in self.start_aliases:
             raise ParameterError(
-                f"there is no start value of {path!r}", path=path, remedy=nearest(path, self.start_aliases)
+                f"there is no start value of {path!r}",
+                path=path,
+                remedy=nearest_or_all(path, self.start_aliases),
             )
         return self.start_aliases[path]
 
@@ -213,7 +157,10 @@ class Evaluator:
         self._continuous = [self.t, self.y, self.yp, self.p, self.u, self.z, self.m]
         self.residual = self._kernel("residual")
         self.jacobian = self._kernel("jacobian", self.cj)
-        self.roots = self._kernel("roots")
+        self.roots: Callable[[], FloatArray] = self._kernel("roots")
+        if dae.sets is not None:
+            entries = self._kernel("state_sets")
+            self.roots = RootsWithMargin(self.roots, entries, dae.sets, dae.dummies, len(dae.relations))
 
     def _kernel(self, name: str, *further: FloatArray) -> Kernel:
         return Kernel(self._dae.functions[name], [*self._continuous, *further])

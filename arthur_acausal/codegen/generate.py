@@ -16,21 +16,16 @@ from arthur_acausal.codegen.assemble import (
     lookup,
     reinit_target,
 )
-from arthur_acausal.codegen.compiled import (
-    Assignment,
-    CompiledDAE,
-    Relation,
-    StartEntry,
-    WhenClause,
-    as_bools,
-    pattern_of,
-)
+from arthur_acausal.codegen.compiled import CompiledDAE, as_bools, pattern_of
 from arthur_acausal.codegen.kernel import compile_functions
 from arthur_acausal.codegen.parameters import ParameterInfo, ParameterTable
 from arthur_acausal.codegen.recovery import Recovery, Source
 from arthur_acausal.codegen.starts import attribute_arrays, collect_starts
+from arthur_acausal.codegen.switching import RELATION, add_switching, continuation_starts
+from arthur_acausal.codegen.tables import Assignment, Relation, StartEntry, WhenClause
 from arthur_acausal.declare.scope import Declared
 from arthur_acausal.errors import ParameterError
+from arthur_acausal.flatten.system import FlatEquation
 from arthur_acausal.graph import strongly_connected
 from arthur_acausal.transform.rows import Row
 from arthur_acausal.transform.structured import StructuredDAE
@@ -39,18 +34,19 @@ SHARED_UP_TO = 1000  # rows
 COMPILED = ("residual", "jacobian", "roots")
 
 
-def generate(dae: StructuredDAE, *, compile: str = "auto") -> CompiledDAE:
+def generate(dae: StructuredDAE, *, compile: str = "auto", continuation: bool = False) -> CompiledDAE:
     """Return the compiled system.
 
-    ``compile``: "auto" (by the system's C compiler where that pays), "always" or "never".
+    ``compile``: "auto" (by the system's C compiler where that pays), "always" or "never". ``continuation``: it
+    continues the run of another set of states: the states at the start are given, and nothing else holds there.
     """
-    slots = collect_starts(dae)
+    slots = continuation_starts(dae) if continuation else collect_starts(dae)
     n_discrete = len(dae.flat.scope.discrete)
     assembly = assemble(dae, len(slots) + n_discrete)
     y_place = {node: k for k, node in enumerate(assembly.y_nodes)}
     table = _parameter_table(dae, assembly)
     entries, aliases = _start_entries(dae, slots, y_place, len(table.infos))
-    functions, tables = _functions(dae, assembly, slots, y_place)
+    functions, tables = _functions(dae, assembly, slots, y_place, continuation)
     hot = compile_functions([functions[name] for name in COMPILED], mode=compile)
     functions |= dict(zip(COMPILED, hot, strict=True))
     nominal, minimum, maximum = attribute_arrays(dae, assembly.y_nodes)
@@ -73,6 +69,8 @@ def generate(dae: StructuredDAE, *, compile: str = "auto") -> CompiledDAE:
         pivot_labels=[label for _, label in assembly.pivots],
         functions=functions,
         recovery=_recovery(dae, assembly, y_place),
+        sets=dae.reduced.sets,
+        dummies=dae.reduced.dummies,
         **tables,
     )
 
@@ -90,7 +88,11 @@ def _default(declared: Declared) -> float:
 
 
 def _functions(
-    dae: StructuredDAE, assembly: Assembly, slots: list[StartSlot], y_place: dict[int, int]
+    dae: StructuredDAE,
+    assembly: Assembly,
+    slots: list[StartSlot],
+    y_place: dict[int, int],
+    continuation: bool,
 ) -> tuple[dict[str, ca.Function], dict[str, Any]]:
     a = assembly.arguments
     arguments = a.continuous()
@@ -101,8 +103,9 @@ def _functions(
     both = _shared(dy + cj * dyp)
     pattern = both.sparsity()
     roots = [dae.evaluator(_row(dae, r.relation.g, r), look) for r in dae.flat.relations]
-    conditions, values, whens, assignments = _whens(dae, before, y_place)
-    initial, labels = _initial(dae, assembly, slots)
+    conditions, values, whens, assignments = events = _whens(dae, before, y_place)
+    entries = add_switching(dae, assembly, look, events)
+    initial, labels = _initial(dae, assembly, slots, [] if continuation else dae.flat.initial)
     slope = ca.horzcat(ca.jacobian(initial, a.y), ca.jacobian(initial, a.yp))
     starts = [_start_value(dae, assembly, s.value, s.path) for s in slots]
     starts += [
@@ -116,6 +119,7 @@ def _functions(
         "roots": make("roots", arguments, [_column(roots)]),
         "jacobian_y": make("jacobian_y", arguments, [ca.project(dy, pattern)]),
         "jacobian_yp": make("jacobian_yp", arguments, [ca.project(dyp, pattern)]),
+        "jacobian_u": make("jacobian_u", arguments, [ca.jacobian(residual, a.u)]),
         "conditions": make("conditions", a.event(), [_column(conditions)]),
         "when_values": make("when_values", a.event(), [_column(values)]),
         "initial": make("initial", arguments, [initial]),
@@ -132,6 +136,9 @@ def _functions(
         )
         for r, g in zip(dae.flat.relations, roots, strict=True)
     ]
+    if entries is not None:
+        functions["state_sets"] = make("state_sets", arguments, [entries])
+        relations.append(RELATION)
     tables = {
         "relations": relations,
         "whens": whens,
@@ -198,11 +205,13 @@ def _whens(
     return conditions, values, whens, assignments
 
 
-def _initial(dae: StructuredDAE, assembly: Assembly, slots: list[StartSlot]) -> tuple[SX, list[str]]:
+def _initial(
+    dae: StructuredDAE, assembly: Assembly, slots: list[StartSlot], equations: list[FlatEquation]
+) -> tuple[SX, list[str]]:
     look = lookup(assembly, before=False)
     values: list[SX] = []
     labels: list[str] = []
-    for equation in dae.flat.initial:
+    for equation in equations:
         row = dae.nodes.row(equation)
         values.append(dae.evaluator(row, look))
         labels.append(f"initial equation {row.text}")
@@ -265,6 +274,8 @@ def _start_entries(
         if ref.kind == "node" and ref.number in by_node:
             number = by_node[ref.number]
             aliases[declared.path] = (number, ref.sign * slots[number].sign)
+    for k, slot in enumerate(slots):
+        aliases.setdefault(slot.path, (k, 1))
     for k, discrete in enumerate(dae.flat.scope.discrete):
         aliases[discrete.path] = (len(slots) + k, 1)
         entries.append(StartEntry(discrete.path, k, 0, True, discrete.quantity.unit, first + len(slots) + k))

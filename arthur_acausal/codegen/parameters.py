@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from arthur_acausal.errors import ArthurError, ParameterError, nearest
+from arthur_acausal.errors import ArthurError, ParameterError, nearest_or_all
 from arthur_acausal.units import to_si
 
 
@@ -64,7 +64,7 @@ class ParameterTable:
             raise ParameterError(
                 f"there is no parameter {path!r}",
                 path=path,
-                remedy=nearest(path, [*self.number, *self.alias]),
+                remedy=nearest_or_all(path, [*self.number, *self.alias]),
             )
         return self.number[path]
 

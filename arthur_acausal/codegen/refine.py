@@ -88,18 +88,14 @@ def _steps(dae: CompiledDAE, rows: Rows, value: FloatArray) -> FloatArray:
     dy, dyp = (_entries(dae, name, arguments, count) for name in ("jacobian_y", "jacobian_yp"))
     column = np.repeat(np.arange(n), np.diff(dae.sparsity.colind))
     entries = np.where(dae.differential[column], dyp, dy)
-    scale = np.ones((count, n))
-    np.maximum.at(scale, (slice(None), dae.sparsity.row), np.abs(entries))
-    entries = entries / scale[:, dae.sparsity.row]
-    right = value / scale
     if n > DENSE_UP_TO:
-        return _sparse_step(dae, entries[0], right[0]).reshape(1, n)
+        return _sparse_step(dae, entries[0], value[0]).reshape(1, n)
     matrix = np.zeros((count, n, n))
     matrix[:, dae.sparsity.row, column] = entries
     try:
-        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
+        return np.asarray(np.linalg.solve(matrix, value[..., None])[..., 0])
     except np.linalg.LinAlgError:
-        return np.stack([np.linalg.lstsq(a, b, rcond=None)[0] for a, b in zip(matrix, right, strict=True)])
+        return np.stack([np.linalg.lstsq(a, b, rcond=None)[0] for a, b in zip(matrix, value, strict=True)])
 
 
 def _entries(dae: CompiledDAE, name: str, arguments: list[FloatArray], count: int) -> FloatArray:

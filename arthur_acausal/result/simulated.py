@@ -9,6 +9,7 @@ from typing import Any
 from arthur_acausal.codegen.compiled import CompiledDAE
 from arthur_acausal.codegen.recovery import Source
 from arthur_acausal.codegen.refine import Rows, refine
+from arthur_acausal.result.chain import Piece, PiecewiseValues, Variant, joined, simulate_pieces
 from arthur_acausal.result.interpolate import FloatArray
 from arthur_acausal.result.run import Run
 from arthur_acausal.result.solution import Solution
@@ -16,7 +17,6 @@ from arthur_acausal.result.variable import Kind, Variable
 from arthur_acausal.solve.failure import SolverFailure, SolverInterrupted
 from arthur_acausal.solve.inputs import Input
 from arthur_acausal.solve.options import SolverOptions
-from arthur_acausal.solve.simulate import simulate
 from arthur_acausal.solve.table import Table
 from arthur_acausal.solve.trajectory import Trajectory
 
@@ -112,20 +112,29 @@ def run(
     inputs: Mapping[str, Input] | None,
     start: Mapping[str, Any] | None,
     progress: Callable[[float], None] | None,
+    variant: Variant | None = None,
 ) -> Solution:
     """Simulate and return the solution.
 
+    ``variant`` compiles the model for another set of states, where one may become singular.
     Raises SimulationError or Interrupted, whose ``solution`` holds what was computed, where the run stops
     early.
     """
     given = {"parameters": parameters or {}, "inputs": inputs or {}, "start": start or {}}
 
-    def wrap(trajectory: Trajectory) -> Solution:
-        return Solution(ComputedValues(dae, trajectory), describe_run(dae, model, trajectory, **given))
+    pieces: list[Piece] = []
+
+    def wrap() -> Solution:
+        parts = [ComputedValues(piece.dae, piece.trajectory) for piece in pieces]
+        values = parts[0] if len(parts) == 1 else PiecewiseValues(parts)
+        whole = joined(pieces, start_time, stop_time)
+        return Solution(values, describe_run(pieces[-1].dae, model, whole, **given))
 
     try:
-        trajectory = simulate(
+        simulate_pieces(
             dae,
+            variant,
+            pieces,
             stop_time=stop_time,
             start_time=start_time,
             options=options,
@@ -136,11 +145,13 @@ def run(
         )
     except SolverFailure as error:
         if error.trajectory is not None:
-            error.solution = wrap(error.trajectory)
+            pieces.append(Piece(dae, error.trajectory))
+            error.solution = wrap()
         raise
     except SolverInterrupted as error:
-        raise Interrupted(wrap(error.trajectory)) from None
-    return wrap(trajectory)
+        pieces.append(Piece(dae, error.trajectory))
+        raise Interrupted(wrap()) from None
+    return wrap()
 
 
 def describe_run(

@@ -47,12 +47,14 @@ class HybridRun:
         parameters: Mapping[str, Any] | None,
         start: Mapping[str, Any] | None,
         progress: Progress | None,
+        grid: FloatArray | None = None,
     ) -> None:
         self._begun = perf_counter()
         load_ida()  # here, so that the time of the other phases does not depend on what was loaded before
         loaded = perf_counter() - self._begun
         self._dae, self._options = dae, options
         self._start, self._stop = start_time, stop_time
+        self._grid = options.grid(start_time, stop_time) if grid is None else grid
         self._evaluator = evaluator = dae.evaluator()
         self._p = dae.parameter_vector(parameters, start)
         evaluator.p[:] = self._p
@@ -92,7 +94,6 @@ class HybridRun:
 
     def _prepare(self) -> None:
         dae, options = self._dae, self._options
-        self._grid = options.grid(self._start, self._stop)
         self._atol = options.absolute_tolerances(list(dae.y_paths), self._attributes.nominal)
         max_step = options.max_step or 0.0
         if not dae.n and not max_step:  # nothing else would make IDA look for events often enough

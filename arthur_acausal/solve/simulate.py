@@ -13,7 +13,7 @@ from arthur_acausal.solve.failure import SolverFailure, SolverInterrupted
 from arthur_acausal.solve.hybrid import HybridRun
 from arthur_acausal.solve.inputs import Input
 from arthur_acausal.solve.options import SolverOptions
-from arthur_acausal.solve.protocol import DAE
+from arthur_acausal.solve.protocol import DAE, FloatArray
 from arthur_acausal.solve.trajectory import Trajectory
 
 
@@ -27,6 +27,7 @@ def simulate(
     parameters: Mapping[str, Any] | None = None,
     start: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
+    grid: FloatArray | None = None,
 ) -> Trajectory:
     """Simulate a compiled model from start_time to stop_time, s.
 
@@ -36,6 +37,7 @@ def simulate(
     parameters : parameter values by path.
     start : start values by path that override the model's.
     progress : called with the present time about ten times a second.
+    grid : output times, both ends included; by default as the options say.
 
     Raises
     ------
@@ -46,7 +48,7 @@ def simulate(
     """
     _check_times(start_time, stop_time)
     chosen, begin, end = options or SolverOptions(), float(start_time), float(stop_time)
-    run = HybridRun(dae, begin, end, chosen, inputs or {}, parameters, start, progress)
+    run = HybridRun(dae, begin, end, chosen, inputs or {}, parameters, start, progress, grid)
     run.initialize()
     try:
         return run.integrate()
@@ -56,6 +58,25 @@ def simulate(
         raise failure from None
     except KeyboardInterrupt:
         raise SolverInterrupted(run.trajectory("interrupted", "interrupted")) from None
+
+
+def initial_point(
+    dae: DAE,
+    *,
+    stop_time: float,
+    start_time: float = 0.0,
+    options: SolverOptions | None = None,
+    inputs: Mapping[str, Input] | None = None,
+    parameters: Mapping[str, Any] | None = None,
+    start: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Trajectory:
+    """Initialise only: the consistent values at start_time, as a trajectory of one row; arguments as simulate."""
+    _check_times(start_time, stop_time)
+    chosen, begin, end = options or SolverOptions(), float(start_time), float(stop_time)
+    run = HybridRun(dae, begin, end, chosen, inputs or {}, parameters, start, progress)
+    run.initialize()
+    return run.trajectory("finished", "")
 
 
 def _check_times(start_time: float, stop_time: float) -> None:

@@ -9,7 +9,7 @@ from arthur_acausal.declare.scope import Atom
 from arthur_acausal.errors import StructureError
 from arthur_acausal.flatten.connections import Alias
 from arthur_acausal.flatten.system import FlatEquation, FlatSystem
-from arthur_acausal.graph import Outcome, SignedUnion
+from arthur_acausal.graph import PRIORITIES, Outcome, SignedUnion
 from arthur_acausal.transform.linear import LinearAnalysis
 
 Definition = tuple[FlatEquation, Atom, Atom, int]
@@ -159,13 +159,17 @@ def _differentiated(flat: FlatSystem) -> set[int]:
 
 
 def _preference(flat: FlatSystem, states: set[int]) -> Callable[[int], tuple[object, ...]]:
-    """Return the key of the variable that stands for its set: a state, then a given start, then the nearest path."""
+    """Return the key of the variable that stands for its set: wanted as a state, a state, a given start, the nearest.
+
+    The set is a state as gladly as its keenest variable: that one's ``state_select`` counts for all.
+    """
     inputs = set(flat.inputs)
 
     def key(i: int) -> tuple[object, ...]:
         declared = flat.variables[i]
         given = declared.start is not None
         inner = declared.quantity.kind in ("potential", "flow")
-        return (i not in inputs, i not in states, not given, inner, declared.path.count("."), i)
+        wanted = PRIORITIES[declared.quantity.state_select]
+        return (i not in inputs, -wanted, i not in states, not given, inner, declared.path.count("."), i)
 
     return key

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import casadi as ca
 from casadi import SX
@@ -14,6 +14,15 @@ from arthur_acausal.flatten.block import Expression
 from arthur_acausal.graph import PRIORITIES, StructurallySingular, pantelides, select_states
 from arthur_acausal.transform.linear import Coefficient, LinearAnalysis
 from arthur_acausal.transform.rows import Evaluator, Nodes, Ref, Row, incidence
+from arthur_acausal.transform.state_sets import StateSets, state_sets
+
+_GLADLY = {
+    "never": 1e6,
+    "avoid": 1e2,
+    "default": 1.0,
+    "prefer": 1e-2,
+    "always": 1e-6,
+}  # a derivative is a dummy
 
 LISTED = 12  # names in one message
 
@@ -24,7 +33,8 @@ class ReducedSystem:
 
     ``edges``: node -> coefficient for each row. ``dummies``: derivative nodes that became algebraic unknowns.
     ``differentiated``: the rows that were differentiated, as text. ``index``: 0 or 1 as it was, 2 and more where
-    rows were differentiated (once, twice, ...).
+    rows were differentiated (once, twice, ...). ``sets``: what else could be states, where a set may become
+    singular, with the entries of its Jacobian, each an expression over the symbols of its row.
     """
 
     rows: list[Row]
@@ -32,13 +42,20 @@ class ReducedSystem:
     dummies: frozenset[int]
     differentiated: list[str]
     index: int
+    sets: StateSets | None = None
+    entries: list[tuple[Row, SX]] = field(default_factory=list)
 
 
 def reduce_index(
-    rows: list[Row], nodes: Nodes, linear: LinearAnalysis, evaluator: Evaluator
+    rows: list[Row],
+    nodes: Nodes,
+    linear: LinearAnalysis,
+    evaluator: Evaluator,
+    dummies: frozenset[int] | None = None,
 ) -> ReducedSystem:
     """Differentiate what must be differentiated; nodes of new derivatives are appended to ``nodes``.
 
+    ``dummies``: the dummy derivatives, if they were chosen by numbers; else they are chosen by structure.
     Raises StructureError where no number of differentiations makes equations and unknowns match.
     """
     edges = [incidence(row, linear) for row in rows]
@@ -59,16 +76,21 @@ def reduce_index(
         origin = result.equation_derivative.index(equation)
         rows.append(_differentiated(rows[origin], nodes, linear, evaluator))
         edges.append(incidence(rows[-1], linear))
-    priority = [PRIORITIES[nodes.flat.variables[v].quantity.state_select] for v, _ in nodes.all]
-    try:
-        chosen = select_states(
-            [_firm(e) for e in edges], result.derivative, result.equation_derivative, priority
-        )
-    except StructurallySingular as singular:
-        raise _singular(singular, rows, nodes) from None
+    quantities = [nodes.flat.variables[v].quantity for v, _ in nodes.all]
+    if dummies is None:
+        priority = [PRIORITIES[q.state_select] for q in quantities]
+        try:
+            chosen = select_states(
+                [_firm(e) for e in edges], result.derivative, result.equation_derivative, priority
+            )
+        except StructurallySingular as singular:
+            raise _singular(singular, rows, nodes) from None
+        dummies = frozenset(chosen.dummies)
+    weight = [(q.nominal or 1.0) * _GLADLY[q.state_select] for q in quantities]
+    sets = state_sets(rows, nodes, nodes.derivative, result.equation_derivative, weight)
     texts = [rows[e].text for e, successor in enumerate(result.equation_derivative) if successor >= 0]
     return ReducedSystem(
-        rows, edges, frozenset(chosen.dummies), texts, 1 + _depth(result.equation_derivative)
+        rows, edges, dummies, texts, 1 + _depth(result.equation_derivative), *(sets or (None, []))
     )
 
 

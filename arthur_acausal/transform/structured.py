@@ -47,14 +47,16 @@ class StructureReport:
     messages: list[str]
 
 
-def transform(flat: FlatSystem) -> StructuredDAE:
-    """Return the structured system. Raises StructureError, naming equations and unknowns, where it is singular."""
+def transform(flat: FlatSystem, dummies: frozenset[int] | None = None) -> StructuredDAE:
+    """Return the structured system; ``dummies``: a set of dummy derivatives chosen by numbers.
+
+    Raises StructureError, naming equations and unknowns, where it is singular."""
     linear = LinearAnalysis()
     evaluator = Evaluator()
     aliases = eliminate_aliases(flat, linear)
     nodes = Nodes(flat, aliases)
     rows = [nodes.row(equation) for equation in aliases.kept]
-    reduced = reduce_index(rows, nodes, linear, evaluator)
+    reduced = reduce_index(rows, nodes, linear, evaluator, dummies)
     return StructuredDAE(flat, aliases, nodes, reduced, causalise(reduced, nodes), evaluator)
 
 

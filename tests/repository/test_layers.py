@@ -26,6 +26,7 @@ LAYERS = (
     "codegen",
     "solve",
     "result",
+    "analysis",
     "api",
     "components",
     "models",

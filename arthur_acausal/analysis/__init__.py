@@ -1,0 +1,1 @@
+"""Analysis of translated models: linearisation, steady state, sensitivities."""

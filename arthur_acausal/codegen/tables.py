@@ -1,0 +1,80 @@
+"""What a compiled model tells of its relations, events, start values and sparsity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True)
+class Relation:
+    """A comparison that makes events: true where root function g > 0, or >= 0 if ``inclusive``."""
+
+    label: str
+    where: str
+    inclusive: bool
+    time_only: bool
+
+
+@dataclass(frozen=True, slots=True)
+class WhenClause:
+    """One ``when``: carried out when its condition becomes true."""
+
+    label: str
+    where: str
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """What an event changes: ``when`` is the clause's number, -1 for a discrete equation, which always holds."""
+
+    kind: Literal["state", "discrete", "terminate"]
+    index: int
+    when: int
+    message: str
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pattern:
+    """A sparsity pattern in compressed columns: rows of column j are row[colind[j]:colind[j + 1]]."""
+
+    colind: IntArray
+    row: IntArray
+
+    @property
+    def nnz(self) -> int:
+        """How many structural nonzeros there are."""
+        return len(self.row)
+
+
+@dataclass(frozen=True, slots=True)
+class Attributes:
+    """Attributes of y, each (n,), for one vector of parameters; ``z_start`` (nz,) of the discrete variables."""
+
+    start: FloatArray
+    fixed: BoolArray
+    start_given: BoolArray
+    nominal: FloatArray
+    min: FloatArray
+    max: FloatArray
+    z_start: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class StartEntry:
+    """A start value kept behind the parameters in p: of y[index] (-1: of no y), times ``sign``."""
+
+    path: str
+    index: int
+    sign: int
+    fixed: bool
+    unit: str
+    place: int

@@ -1,0 +1,120 @@
+"""A run over several sets of states: where one becomes singular, another takes over from its last values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from arthur_acausal.codegen.compiled import CompiledDAE
+from arthur_acausal.codegen.refine import Rows, refine
+from arthur_acausal.codegen.switching import LEAVE_AT, RELATION, SWITCH
+from arthur_acausal.result.interpolate import FloatArray
+from arthur_acausal.result.variable import Variable
+from arthur_acausal.solve.simulate import initial_point, simulate
+from arthur_acausal.solve.statistics import Statistics
+from arthur_acausal.solve.trajectory import Event, Trajectory
+
+Variant = Callable[[frozenset[int]], CompiledDAE]
+"""From a set of dummy derivatives to the system compiled for it, as one that continues a run."""
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A part of a run: a trajectory, and the compiled system that it belongs to."""
+
+    dae: CompiledDAE
+    trajectory: Trajectory
+
+
+def simulate_pieces(
+    dae: CompiledDAE, variant: Variant | None, pieces: list[Piece], *, start_time: float, **arguments: Any
+) -> None:
+    """Simulate, appending to ``pieces``; a failing run raises, and what was finished before it stays there.
+
+    ``arguments`` are those of ``simulate``.
+    """
+    if dae.sets is None or variant is None:
+        pieces.append(Piece(dae, simulate(dae, start_time=start_time, **arguments)))
+        return
+    grid = arguments["options"].grid(start_time, arguments["stop_time"])
+    start = arguments.pop("start")
+    point = Piece(dae, initial_point(dae, start_time=start_time, start=start, **arguments))
+    current, given = dae, start
+    entries = _entries(point)
+    if dae.sets.margin(entries, dae.dummies) <= LEAVE_AT:
+        current = variant(dae.sets.choose(entries))
+        given = _values_at_end(point, current)
+    time = start_time
+    while True:
+        times = np.concatenate([[time], grid[grid > time]])
+        done = simulate(current, start_time=time, start=given, grid=times, **arguments)
+        pieces.append(Piece(current, done))
+        if done.status != "terminated" or done.message != SWITCH:
+            return
+        assert current.sets is not None
+        chosen = current.sets.choose(_entries(pieces[-1]))
+        current = variant(chosen)
+        given = _values_at_end(pieces[-1], current)
+        time = float(done.t[-1])
+
+
+def _last(piece: Piece) -> Rows:
+    """Return the last row, its algebraic values and derivatives solved anew from the states."""
+    x = piece.trajectory
+    rows = Rows(x.t[-1:], x.y[-1:], x.yp[-1:], x.p, x.u[-1:], x.z[-1:], x.m[-1:])
+    y, yp = refine(piece.dae, rows)
+    return replace(rows, y=y, yp=yp)
+
+
+def _entries(piece: Piece) -> FloatArray:
+    return np.asarray(piece.dae.functions["state_sets"](*_last(piece).arguments()), dtype=float).reshape(-1)
+
+
+def _values_at_end(piece: Piece, following: CompiledDAE) -> dict[str, float]:
+    """Return the start values of the system that takes over: its states, and the discrete variables."""
+    row = _last(piece)
+    paths = [entry.path for entry in following.starts]
+    values = piece.dae.recovery.observe(paths, row.t, row.y, row.yp, row.p, row.u, row.z, row.m)
+    return dict(zip(paths, values[0].tolist(), strict=True))
+
+
+def joined(pieces: Sequence[Piece], start_time: float, stop_time: float) -> Trajectory:
+    """Return what there is to tell of the whole run: the last trajectory, with the events and statistics of all."""
+    last = pieces[-1].trajectory
+    if len(pieces) == 1:
+        return replace(last, start_time=start_time, stop_time=stop_time)
+    own = {SWITCH, f"{RELATION.label} became false"}
+    events: list[Event] = [e for piece in pieces for e in piece.trajectory.events if e.what not in own]
+    statistics = Statistics()
+    for piece in pieces:
+        for item in fields(Statistics):
+            value = getattr(piece.trajectory.statistics, item.name)
+            before = getattr(statistics, item.name)
+            setattr(statistics, item.name, value if isinstance(value, str) else before + value)
+    statistics.unknowns = last.statistics.unknowns
+    statistics.messages = [
+        f"{len(pieces) - 1} changes of the set of states",
+        *dict.fromkeys(statistics.messages),
+    ]
+    return replace(last, events=events, statistics=statistics, start_time=start_time, stop_time=stop_time)
+
+
+class PiecewiseValues:
+    """Values out of several pieces, one after the other; see ``Values``."""
+
+    def __init__(self, parts: Sequence[Any]) -> None:
+        self._parts = parts
+        self.t: FloatArray = np.concatenate([part.t for part in parts])
+        self.modes: FloatArray = np.concatenate([part.modes for part in parts])
+        self.variables: Mapping[str, Variable] = parts[0].variables
+
+    def observe(self, paths: Sequence[str]) -> FloatArray:
+        """Values (nt, len(paths)) in SI."""
+        return np.concatenate([part.observe(paths) for part in self._parts])
+
+    def slope(self, state: str) -> FloatArray | None:
+        """None: what is a state in one piece may be none in the next."""
+        return None
