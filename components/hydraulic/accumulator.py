@@ -14,9 +14,8 @@ class Accumulator(Component):
     """A bladder accumulator: below the precharge pressure it takes no fluid, above it p V_g^n = p_pre V_0^n.
 
     State: ``p`` [Pa]. The bladder has no mass, so the gas volume follows the fluid's pressure: V_g = V_0
-    (p_pre/p)^(1/n) (Merritt 1967, sec. 3-7; Manring 2005). The fluid in it, ``V_dead`` more than the
-    bladder gives way, is compressible. Passing the precharge pressure is an event, as the stiffness jumps
-    there.
+    (p_pre/p)^(1/n), an ideal gas. The fluid in it, ``V_dead`` more than the bladder gives way, is
+    compressible. Passing the precharge pressure is an event, as the stiffness jumps there.
 
     Parameters: ``V_0`` [m^3] gas volume at precharge, ``p_pre`` [Pa], ``n`` 1 (slow, isothermal) to about
     1.4 (fast, adiabatic; real nitrogen at high pressure has more).

@@ -13,7 +13,7 @@ class CheckValve(TwoPort):
     """Lets fluid pass from port_a to port_b only.
 
     The poppet's area grows linearly from ``A_leak`` at the cracking pressure ``dp_crack`` to ``A_max`` at
-    ``dp_open`` (Merritt 1967, sec. 8-5, for a spring-loaded poppet without mass); the flow follows the
+    ``dp_open`` (Merritt 1967, ch. 11, for a spring-loaded poppet without mass); the flow follows the
     orifice law. Continuous: no event. Parameters: ``dp_crack``, ``dp_open`` [Pa], ``A_max``, ``A_leak``
     [m^2], ``C_d`` [1], ``dp_small`` [Pa].
     """

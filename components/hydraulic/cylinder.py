@@ -39,7 +39,7 @@ class Cylinder(Component):
       default is False.
 
     Parameters: Table 10. ``A_B`` is 0.75 A_A in the report's code. ``G_leak`` [m^3/(s Pa)]: laminar leakage
-    past the piston (pi d c_r^3/(12 mu L); Merritt 1967, sec. 3-2). Valid while the chambers' volumes stay
+    past the piston (pi d c_r^3/(12 mu L); Merritt 1967, ch. 3). Valid while the chambers' volumes stay
     positive, 9 mm into a stop.
     """
 

@@ -11,14 +11,14 @@ class Fluid(Record):
     """A barotropic liquid: its density depends on pressure only.
 
     By default rho(p) = rho exp((p - p_ref)/beta), that is, the bulk modulus ``beta`` [Pa] is constant
-    (Merritt 1967, ch. 1). Pressures are absolute. The options change the volume v(p) of a unit of mass,
+    (Merritt 1967, ch. 2). Pressures are absolute. The options change the volume v(p) of a unit of mass,
     from which the bulk modulus -v/(dv/dp), enthalpy and stored energy all follow, so that mass and energy
     stay conserved:
 
     - ``constant_density``: v does not change. A volume then has p' = beta (q - V')/V as in the ARTHuR
       report, eq. 5.39, and mass is conserved to first order in p/beta only.
     - ``air``: the volume fraction ``air_fraction`` of undissolved air at ``p_air`` follows a polytrope
-      ``n_air`` (Merritt 1967, sec. 2-2; Gholizadeh, Burton and Schoenau, Int. J. Fluid Power 12, 2011).
+      ``n_air`` (Merritt 1967, ch. 2; Gholizadeh, Burton and Schoenau, Int. J. Fluid Power 12, 2011).
       Pressures stay positive.
     - ``cavitation``: below ``p_vapour`` cavities open with the low modulus ``beta_cavity``, which keeps the
       pressure from falling much further, whatever volume is drawn (column separation as in Wylie and

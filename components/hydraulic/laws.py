@@ -10,7 +10,7 @@ from arthur_acausal import if_else, smooth_if_else
 def turbulent_root(dp: SX, dp_small: SX) -> SX:
     """Return sign(dp) sqrt|dp| [Pa^0.5], made linear within about ``dp_small`` [Pa] of zero.
 
-    There the flow of an orifice is laminar (Merritt 1967, sec. 3-4). Odd in dp and increasing, so an
+    There the flow of an orifice is laminar (Merritt 1967, ch. 3). Odd in dp and increasing, so an
     orifice that follows it is passive; the relative difference to the root is (dp_small/dp)^2/4 where dp is
     large.
     """

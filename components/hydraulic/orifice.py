@@ -12,7 +12,7 @@ from arthur_acausal.components.hydraulic.two_port import TwoPort
 class Orifice(TwoPort):
     """A sharp-edged orifice: q = C_d area sqrt(2 dp/rho), with a laminar transition below about ``dp_small``.
 
-    Merritt (1967), sec. 3-4; ARTHuR report, eq. 5.29. The density is the reference density. Parameters:
+    Merritt (1967), ch. 3; ARTHuR report, eq. 5.29. The density is the reference density. Parameters:
     ``area`` [m^2], ``C_d`` [1], ``dp_small`` [Pa]. Either direction. Valid for turbulent flow, Re above
     about 1e3.
     """

@@ -24,7 +24,7 @@ class LinearResistance(TwoPort):
 
 
 class LaminarPipe(TwoPort):
-    """Laminar flow in a round pipe, dp = 128 mu L q/(pi d^4) (Hagen and Poiseuille; Merritt 1967, sec. 3-2).
+    """Laminar flow in a round pipe, dp = 128 mu L q/(pi d^4) (Hagen and Poiseuille; Merritt 1967, ch. 3).
 
     Parameters: length ``L`` [m], diameter ``d`` [m]. Valid for a Reynolds number below about 2300.
     """

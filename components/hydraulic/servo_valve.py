@@ -30,15 +30,14 @@ class ServoValve(Component):
     - ``law``: "laminar transition", the default, is linear below about ``dp_small`` [Pa]; "listing" keeps
       the root (6.3.6), with a finite slope at dp = 0 in the Jacobian.
     - ``spool``: "ideal", the default (x = I/I_rated, unlimited), or "second order": x'' + 2 zeta omega x' +
-      omega^2 x = omega^2 I/I_rated, with I/I_rated limited to +-1 (Merritt 1967, sec. 6-4: a servo valve's
+      omega^2 x = omega^2 I/I_rated, with I/I_rated limited to +-1 (Merritt 1967, ch. 7: a servo valve's
       data sheet response). The natural frequency is ``f_spool`` [Hz as 1/s], the damping ratio
       ``zeta_spool``.
 
     Parameters: ``K_V`` [m^2/A], the gain of 5.35, by default from the rated flow ``q_rated`` [m^3/s] at the
     rated valve drop ``dp_rated`` [Pa] (both lands) and current ``I_rated`` [A] (7.5 L/min at 70 bar, 1 A:
     assumed, the report's value is redacted); ``overlap`` [1] of each land as a share of the rated stroke
-    (negative: underlap); ``G_leak`` [m^3/(s Pa)], the laminar leakage across each land (Merritt 1967, sec.
-    5-6).
+    (negative: underlap); ``G_leak`` [m^3/(s Pa)], the laminar leakage across each land (Merritt 1967, ch. 5).
     """
 
     law: ValveLaw = "laminar transition"

@@ -11,7 +11,6 @@ from arthur_acausal.components.hydraulic.motor import Clamp, MotorLaw
 from arthur_acausal.components.hydraulic.relief_valve import ReliefLaw
 from arthur_acausal.components.hydraulic.reservoir import GasLaw
 from arthur_acausal.components.hydraulic.servo_valve import Spool, ValveLaw
-from arthur_acausal.errors import nearest
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +59,8 @@ class Options:
         for name, kind in get_type_hints(type(self)).items():
             known, given = get_args(kind), getattr(self, name)
             if known and given not in known:
-                remedy = nearest(str(given), known) or f"choose one of {', '.join(map(repr, known))}"
-                raise UsageError(f"the powertrain has no {name} {given!r}", remedy=remedy)
+                words = ", ".join(map(repr, known))
+                raise UsageError(f"the powertrain has no {name} {given!r}", remedy=f"choose one of {words}")
 
 
 VARIANTS = {
@@ -88,6 +87,6 @@ def options_of(variant: str) -> Options:
     if variant not in VARIANTS:
         raise UsageError(
             f"the powertrain has no variant {variant!r}",
-            remedy=nearest(variant, VARIANTS) or f"it has {', '.join(VARIANTS)}",
+            remedy=f"it has {', '.join(VARIANTS)}",
         )
     return VARIANTS[variant]

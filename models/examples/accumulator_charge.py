@@ -7,6 +7,7 @@ from arthur_acausal.components.hydraulic import (
     Accumulator,
     CheckValve,
     FlowSource,
+    Fluid,
     ReliefValve,
     Tank,
     Volume,
@@ -20,12 +21,15 @@ class AccumulatorCharge(Component):
     polytrope until the relief valve opens at 140 bar.
     """
 
+    fluid: Fluid = Fluid()
     pump = FlowSource(q=3.8e-3 / 60)
-    line: Volume = Volume(V=5e-6, p=start(3e5, fixed=True))
     check: CheckValve = CheckValve(A_max=1e-5)
     accumulator: Accumulator = Accumulator(V_0=1e-4, p_pre=84e5, p=start(3e5, fixed=True))
     relief: ReliefValve = ReliefValve(p_c=140e5)
     tank = Tank()
+
+    def build(self) -> None:
+        self.line = Volume(V=5e-6, p=start(3e5, fixed=True), fluid=self.fluid)
 
     def equations(self) -> Equations:
         yield connect(self.pump.port, self.line.port)

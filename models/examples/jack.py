@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from arthur_acausal import Component, Equations, connect, start
-from arthur_acausal.components.hydraulic import Orifice, PressureSource, Ram
+from arthur_acausal.components.hydraulic import Fluid, Orifice, PressureSource, Ram
 from arthur_acausal.components.translational import ForceSource, Mass
 
 
@@ -14,11 +14,15 @@ class Jack(Component):
     0 with the pressure that carries the weight; it then rises at the speed that the orifice allows.
     """
 
+    fluid: Fluid = Fluid()
     supply = PressureSource(p=100e5)
     orifice: Orifice = Orifice(area=2e-6)
-    ram: Ram = Ram(area=1e-3, dead_volume=1e-5, p=start(49.05e5, fixed=True))
     load: Mass = Mass(m=500.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True))
     weight = ForceSource(f=-4905.0)
+
+    def build(self) -> None:
+        p = start(49.05e5, fixed=True)
+        self.ram = Ram(area=1e-3, dead_volume=1e-5, p=p, fluid=self.fluid)
 
     def equations(self) -> Equations:
         yield connect(self.supply.port, self.orifice.port_a)

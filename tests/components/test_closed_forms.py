@@ -93,7 +93,7 @@ class Locked(Component):
 
 
 def test_a_locked_cylinder_oscillates_at_its_natural_frequency() -> None:
-    """omega = sqrt(beta (A1^2/V1 + A2^2/V2)/m) = 509.378706530 rad/s, small amplitude (Merritt 1967, sec. 6-1)."""
+    """omega = sqrt(beta (A1^2/V1 + A2^2/V2)/m) = 509.378706530 rad/s, small amplitude (Merritt 1967, ch. 6)."""
     omega, amplitude = 509.37870653048174, 1e-5
     cylinder = Cylinder(
         A_A=1e-3,
