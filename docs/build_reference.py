@@ -1,4 +1,4 @@
-"""Writes docs/components.md from the components themselves: ``python docs/build_reference.py``."""
+"""Writes docs/components.md and docs/components/ from the components: ``python docs/build_reference.py``."""
 
 from __future__ import annotations
 
@@ -35,18 +35,29 @@ Tabatabai (2022), see [the powertrain](powertrain.md).
 SIGNALS = {"input": "in", "output": "out"}
 
 
-def render() -> str:
-    """The whole page."""
+def render() -> dict[str, str]:
+    """All pages by their path below docs/."""
     libraries = [
         importlib.import_module(f"{arthur_acausal.components.__name__}.{module.name}")
         for module in pkgutil.iter_modules(arthur_acausal.components.__path__)
         if module.ispkg
     ]
-    contents = [
-        f"- [{short(library)}](#{short(library)}): {', '.join(name for name, _ in classes(library))}"
-        for library in libraries
-    ]
-    return "\n".join([HEAD, *contents, "", *(section(library) for library in libraries)]).rstrip() + "\n"
+    pages = {f"components/{short(library)}.md": section(library) for library in libraries}
+    pages["components.md"] = "\n".join([HEAD, *(overview(library) for library in libraries)]).rstrip() + "\n"
+    return pages
+
+
+def overview(library: ModuleType) -> str:
+    """A library's part of the first page: each class with the first line of its docstring."""
+    page = f"components/{short(library)}.md"
+    rows = [[f"[{name}]({page}#{name.lower()})", first_line(kind)] for name, kind in classes(library)]
+    listed = table(["component", "what it is"], rows)
+    return f"## {short(library)}\n\n[{inspect.getdoc(library)}]({page})\n\n{listed}\n"
+
+
+def first_line(kind: type[Any]) -> str:
+    """The first line of a docstring, safe within a table."""
+    return docstring(kind).partition("\n")[0].replace("|", "\\|")
 
 
 def short(library: ModuleType) -> str:
@@ -65,7 +76,8 @@ def classes(library: ModuleType) -> list[tuple[str, type[Any]]]:
 
 def section(library: ModuleType) -> str:
     """One library: its docstring, its classes, its functions and constants."""
-    parts = [f"## {short(library)}", f"`{library.__name__}`: {inspect.getdoc(library)}"]
+    parts = [f"# {short(library)}", f"`{library.__name__}`: {inspect.getdoc(library)}"]
+    parts += ["Made by `python docs/build_reference.py`. [All libraries](../components.md)"]
     parts += [entry(name, kind) for name, kind in classes(library)]
     others = [(n, getattr(library, n)) for n in library.__all__ if n not in dict(classes(library))]
     parts += [function(name, value) for name, value in others if inspect.isfunction(value)]
@@ -86,7 +98,7 @@ def entry(name: str, kind: type[Any]) -> str:
     declared = kind._declarations
     quantities = declared.quantities.values()
     extends = f", extends `{bases[0]}`" if bases else ""
-    parts = [f"### {name}", f"{what}{extends}, {source(kind)}", docstring(kind)]
+    parts = [f"## {name}", f"{what}{extends}, {source(kind)}", docstring(kind)]
     parts += [ports(declared.parts), structural(kind, declared.structural)]
     parts += [parameters(kind, [q for q in quantities if q.kind == "parameter"])]
     parts += [signals([q for q in quantities if q.kind in SIGNALS])]
@@ -98,7 +110,7 @@ def entry(name: str, kind: type[Any]) -> str:
 def source(kind: type[Any]) -> str:
     """A link to the file that defines a class."""
     module = kind.__module__.removeprefix("arthur_acausal.").replace(".", "/")
-    return f"[{module}.py](../{module}.py)"
+    return f"[{module}.py](../../{module}.py)"
 
 
 def docstring(kind: Any) -> str:
@@ -172,8 +184,9 @@ def expression(kind: type[Any], name: str) -> str:
         if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.target.id == name:
             assert isinstance(node.value, ast.Call)
             given = next(word.value for word in node.value.keywords if word.arg == "default")
-            assert isinstance(given, ast.Lambda)
-            return code(ast.unparse(given.body).replace("self.", ""))
+            if isinstance(given, ast.Lambda):
+                return code(ast.unparse(given.body).replace("self.", ""))
+            return code(ast.unparse(given))  # the name of a function
     raise LookupError(name)
 
 
@@ -212,7 +225,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def function(name: str, value: Any) -> str:
     """A function: signature and docstring."""
     signature = str(inspect.signature(value)).replace("'", "")
-    return f"### {name}\n\n```python norun\n{name}{signature}\n```\n\n{docstring(value)}"
+    return f"## {name}\n\n```python norun\n{name}{signature}\n```\n\n{docstring(value)}"
 
 
 def constant(library: ModuleType, name: str, value: float) -> str:
@@ -222,9 +235,16 @@ def constant(library: ModuleType, name: str, value: float) -> str:
         for node, following in pairwise(body):
             named = isinstance(node, ast.Assign) and any(getattr(t, "id", "") == name for t in node.targets)
             if named and isinstance(following, ast.Expr) and isinstance(following.value, ast.Constant):
-                return f"### {name}\n\n{value:.12g}. {following.value.value}"
-    return f"### {name}\n\n{value:.12g}"
+                return f"## {name}\n\n{value:.12g}. {following.value.value}"
+    return f"## {name}\n\n{value:.12g}"
 
 
 if __name__ == "__main__":
-    Path(__file__).with_name("components.md").write_text(render(), encoding="utf-8")
+    folder = Path(__file__).parent
+    pages = render()
+    (folder / "components").mkdir(exist_ok=True)
+    for name, text in pages.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    for page in (folder / "components").glob("*.md"):
+        if f"components/{page.name}" not in pages:
+            page.unlink()  # of a library that is no more

@@ -17,6 +17,7 @@ import shlex
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -81,7 +82,7 @@ def run_page(page: list[Block], folder: Path) -> Iterator[Ran]:
 
 def run_blocks(page: list[Block], namespace: dict[str, Any], folder: Path) -> Iterator[Ran]:
     """Run the blocks one after the other."""
-    for block, following in zip(page, [*page[1:], None], strict=True):
+    for block, following in zip_longest(page, page[1:]):
         if block.kind == "python" and "norun" not in block.words:
             printed = run_python(block, namespace, folder)
             output = following if following and following.kind == "text" and following.adjacent else None
@@ -120,7 +121,7 @@ def run_python(block: Block, namespace: dict[str, Any], folder: Path) -> str:
 def run_commands(block: Block) -> Iterator[Ran]:
     """Run the `arthur` commands of a console block."""
     found = list(PROMPT.finditer(block.text))
-    for match, following in zip(found, [*found[1:], None], strict=True):
+    for match, following in zip_longest(found, found[1:]):
         command = match[1].replace("\\\n", " ")
         end = following.start() if following else len(block.text)
         said = block.text[match.end() : end]
