@@ -10,6 +10,11 @@ REGISTRY: dict[str, str] = {
     "examples.rc_ladder": "arthur_acausal.models.examples.rc_ladder:RCLadder",
     "examples.jack": "arthur_acausal.models.examples.jack:Jack",
     "examples.accumulator_charge": "arthur_acausal.models.examples.accumulator_charge:AccumulatorCharge",
+    "examples.clutch_engagement": "arthur_acausal.models.examples.clutch_engagement:ClutchEngagement",
+    "examples.stick_slip": "arthur_acausal.models.examples.stick_slip:StickSlip",
+    "examples.double_pendulum": "arthur_acausal.models.examples.double_pendulum:DoublePendulum",
+    "examples.four_bar": "arthur_acausal.models.examples.four_bar:FourBar",
+    "examples.slider_crank": "arthur_acausal.models.examples.slider_crank:SliderCrank",
 }
 
 DESCRIPTIONS: dict[str, str] = {
@@ -19,4 +24,9 @@ DESCRIPTIONS: dict[str, str] = {
     "examples.rc_ladder": "a chain of n resistors and capacitors",
     "examples.jack": "pressure source, orifice, ram and mass",
     "examples.accumulator_charge": "check valve, accumulator and relief valve",
+    "examples.clutch_engagement": "dry friction that ends in sticking",
+    "examples.stick_slip": "a block on a moving belt",
+    "examples.double_pendulum": "planar bodies and joints, a chain",
+    "examples.four_bar": "planar bodies and joints, a kinematic loop",
+    "examples.slider_crank": "turning becomes sliding, a kinematic loop with flanges",
 }
