@@ -136,6 +136,7 @@ def variable(
 def potential(
     unit: str,
     *,
+    start: Scalar | Deferred | None = None,
     nominal: float | None = None,
     min: float | None = None,
     max: float | None = None,
@@ -144,7 +145,14 @@ def potential(
 ) -> Real:
     """Declare a connector's potential [``unit``]: equal in all connectors of a connection set."""
     return Real(
-        "potential", unit, nominal=nominal, min=min, max=max, display=display, description=description
+        "potential",
+        unit,
+        start=start,
+        nominal=nominal,
+        min=min,
+        max=max,
+        display=display,
+        description=description,
     )
 
 

@@ -116,18 +116,19 @@ class ConsistentSystem:
         self._evaluator.yp[self.states] = solved.w[self.free.size :]
         return solved
 
-    def rates(self, solve: Solve, ahead: float) -> FloatArray:
+    def rates(self, solve: Solve, ahead: float, now: FloatArray) -> FloatArray:
         """Derivatives of the unknowns, by a forward difference of F along the solution over `ahead` seconds.
 
         `solve` solves with the matrix of the consistent values, which the evaluator holds. The states move with y',
-        and what then remains of F is what the unknowns must take back. The caller moves the inputs along.
+        and what F then has changed by is what the unknowns must take back. The caller moves time and inputs along;
+        `now` is F before, not zero where the values are IDA's, within its tolerance.
         """
         evaluator, states = self._evaluator, self.states
         y = evaluator.y[states]
         evaluator.y[states] += ahead * evaluator.yp[states]
-        remains = evaluator.residual().copy()
+        change = evaluator.residual() - now
         evaluator.y[states] = y
-        return -solve(remains) / ahead
+        return -solve(change) / ahead
 
 
 def _entries(pattern: Pattern) -> tuple[Index, Index]:

@@ -25,6 +25,7 @@ from arthur_acausal.solve.trajectory import Event
 
 AFTER = "check what reinit sets, and that the equations have a solution after the event"
 DIFFERENCE = 1e-7  # forward difference, relative to the time in which a state moves by its own magnitude
+NEARBY = 1e-3  # relative distance of the point where a change of law shows that the event itself hides
 TINY = 1e-300
 
 
@@ -65,7 +66,8 @@ class EventIteration:
         self._scheduled = scheduled
         self._factors: Solve | None = None
         self._scale = np.zeros(len(dae.relations))
-        self._residual = np.zeros(dae.n)
+        self._nearby = NEARBY * np.random.default_rng(0).uniform(0.5, 1.0, 2 * dae.n + 1)
+        self._law = np.zeros(2 * dae.n)
 
     def handle(self, flagged: Mapping[int, bool], resolution: float, inputs_jump: bool = False) -> Outcome:
         """Handle the event at the evaluator's t, y, y'. `flagged` are relations known to change, and to what.
@@ -74,7 +76,7 @@ class EventIteration:
         """
         evaluator, outcome = self._evaluator, Outcome(affected=inputs_jump)
         before = evaluator.m > 0.5
-        self._residual = evaluator.residual().copy()
+        self._law = self._laws()
         pending, reset = inputs_jump, False
         moving: Index = np.zeros(0, dtype=np.intp)
         for number in range(self._options.max_event_iterations):
@@ -100,11 +102,24 @@ class EventIteration:
 
     def _follow(self, outcome: Outcome, changed: bool) -> None:
         """Solve for consistent values, unless F is what it was: then the event concerns discrete variables only."""
-        residual = self._evaluator.residual()
-        if changed or not np.array_equal(residual, self._residual):
+        law = self._laws()
+        if changed or not np.array_equal(law, self._law, equal_nan=True):
             self._solve(outcome)
             outcome.affected = True
-            self._residual = self._evaluator.residual().copy()
+            self._law = self._laws()
+
+    def _laws(self) -> FloatArray:
+        """F at the present values and near them: where a law has a kink, both sides of it agree at the event itself."""
+        evaluator, n = self._evaluator, self._dae.n
+        t, y, yp = float(evaluator.t[0]), evaluator.y.copy(), evaluator.yp.copy()
+        here = evaluator.residual().copy()
+        magnitude = np.maximum(np.abs(y), self._system.nominal)
+        evaluator.t[0] = t + self._nearby[-1] * max(abs(t), 1.0)
+        evaluator.y[:] += self._nearby[:n] * magnitude
+        evaluator.yp[:] += self._nearby[n : 2 * n] * np.maximum(np.abs(yp), magnitude)
+        near = evaluator.residual().copy()
+        evaluator.t[0], evaluator.y[:], evaluator.yp[:] = t, y, yp
+        return np.concatenate([here, near])
 
     def rates(self, refresh: Callable[[float], None], duration: float) -> FloatArray | None:
         """Second derivatives of the states at the present consistent values, (n,); zero for algebraic variables.
@@ -123,9 +138,10 @@ class EventIteration:
             np.abs(evaluator.y[system.states]), system.nominal[system.states]
         )
         ahead = DIFFERENCE * min(duration, 1.0 / max(float(speed.max(initial=0.0)), TINY))
+        now = evaluator.residual().copy()
         evaluator.t[0] = t + ahead
         refresh(t + ahead)
-        rates = system.rates(factors, ahead)
+        rates = system.rates(factors, ahead, now)
         evaluator.t[0] = t
         refresh(t)
         if not np.isfinite(rates).all():

@@ -15,6 +15,11 @@ from arthur_acausal import Equations, Real, discrete, if_else, parameter, pre, r
 from arthur_acausal.components.electrical.pin import HeatingTwoPin
 
 
+def either(on: SX, then: SX | float, otherwise: SX | float) -> SX:
+    """Return ``then`` where the mode ``on``, 0 or 1, is 1, else ``otherwise``: one relation serves many places."""
+    return on * then + (1 - on) * otherwise
+
+
 class IdealSemiconductor(HeatingTwoPin):
     """What diode and thyristor share: from the knee (Vknee, Goff Vknee), slope 1/Ron above, Goff below.
 
@@ -34,9 +39,9 @@ class IdealSemiconductor(HeatingTwoPin):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        off, s = self.off(), self.s
-        yield "voltage", self.v == if_else(off, s * self.V_unit, s * self.I_unit * self.Ron) + self.Vknee
-        along = if_else(off, s * self.V_unit * self.Goff, s * self.I_unit)
+        on, s = if_else(self.off(), 0, 1), self.s
+        yield "voltage", self.v == s * either(on, self.I_unit * self.Ron, self.V_unit) + self.Vknee
+        along = s * either(on, self.I_unit, self.V_unit * self.Goff)
         yield "current", self.i == along + self.Goff * self.Vknee
 
 
@@ -75,14 +80,15 @@ class IdealZener(IdealSemiconductor):
     def equations(self) -> Equations:
         yield from HeatingTwoPin.equations(self)
         s, s_z = self.s, (self.V_z + self.Vknee) / self.V_unit
-        blocks, broken = self.s < 0, self.s + s_z < 0
-        Ron, Goff = self.I_unit * self.Ron, self.V_unit * self.Goff
-        v_back = if_else(broken, (s + s_z) * Ron - self.V_z, s * self.V_unit + self.Vknee)
-        yield "voltage", self.v == if_else(blocks, v_back, s * Ron + self.Vknee)
-        i_back = if_else(
-            broken, (s + s_z) * self.I_unit - self.Goff * self.V_z, s * Goff + self.Goff * self.Vknee
+        on, broken = if_else(s < 0, 0, 1), if_else(s + s_z < 0, 1, 0)
+        conducts = either(on, 1, broken)
+        beyond = s + broken * s_z  # from the knee, or from the point of breakdown
+        v_knee, i_knee = (
+            either(broken, -self.V_z, self.Vknee),
+            self.Goff * either(broken, -self.V_z, self.Vknee),
         )
-        yield "current", self.i == if_else(blocks, i_back, s * self.I_unit + self.Goff * self.Vknee)
+        yield "voltage", self.v == beyond * either(conducts, self.I_unit * self.Ron, self.V_unit) + v_knee
+        yield "current", self.i == beyond * either(conducts, self.I_unit, self.V_unit * self.Goff) + i_knee
 
 
 class IdealSwitch(HeatingTwoPin):
@@ -101,9 +107,9 @@ class IdealSwitch(HeatingTwoPin):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        off, s = self.is_open(), self.s
-        yield "voltage", self.v == if_else(off, s * self.V_unit, s * self.I_unit * self.Ron)
-        yield "current", self.i == if_else(off, s * self.V_unit * self.Goff, s * self.I_unit)
+        on, s = if_else(self.is_open(), 0, 1), self.s
+        yield "voltage", self.v == s * either(on, self.I_unit * self.Ron, self.V_unit)
+        yield "current", self.i == s * either(on, self.I_unit, self.V_unit * self.Goff)
 
 
 class IdealClosingSwitch(IdealSwitch):

@@ -50,7 +50,7 @@ class PIDController(Component):
 
     def initial_equations(self) -> Equations:
         yield der(self.inertia1.w) == 0
-        yield der(self.spring.w_rel) == 0
+        yield der(self.inertia2.w) == 0  # with the line above: der(spring.w_rel) == 0
         yield der(self.PI.I) == 0
 
 

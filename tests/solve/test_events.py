@@ -284,3 +284,20 @@ def test_many_events_in_a_long_run_are_all_found() -> None:
     assert np.abs(np.array(times(result)) - exact).max() < 1e-5
     assert result.z[-1, 0] == 32.0
     assert result.statistics.state_events == 64
+
+
+def test_a_kink_at_the_event_itself_is_a_change_of_the_law() -> None:
+    """v = 1000 s and, above zero, 1 s: both agree at s = 0, where the event is, but only one of them holds after it."""
+    a, b = algebraic("a"), algebraic("b")
+    blocks = Relation("a < 0", -a.s)
+    slope = casadi.if_else(blocks.s, 1.0, 1e-3)
+    rows = {
+        "a": slope * a.s - casadi.sin(2 * np.pi * TIME) + 0.5,
+        "b": 1e-3 * b.s - casadi.sin(2 * np.pi * TIME),
+    }
+    result = simulate(
+        handmade([a, b], rows, relations=[blocks]), stop_time=1.0, options=SolverOptions(intervals=2000)
+    )
+    exact = np.sin(2 * np.pi * result.t) - 0.5
+    assert result.y[:, 0] == pytest.approx(np.where(exact < 0, exact, 1e3 * exact), abs=2e-3)
+    assert result.statistics.restarts == 2
