@@ -15,7 +15,14 @@ class ArthurError(Exception):
     """
 
     def __init__(
-        self, message: str, *, path: str = "", equation: str = "", where: str = "", cause: str = "", remedy: str = ""
+        self,
+        message: str,
+        *,
+        path: str = "",
+        equation: str = "",
+        where: str = "",
+        cause: str = "",
+        remedy: str = "",
     ) -> None:
         super().__init__(message)
         self.message = message
@@ -83,5 +90,14 @@ class UsageError(ArthurError):
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """Return ``did you mean a, b?`` with the known names nearest to ``name``, or an empty string."""
-    matches = difflib.get_close_matches(name, list(known), n=3, cutoff=0.6)
+    names = list(known)
+    matches = [other for other in names if other.lower() == name.lower()]
+    matches = matches or difflib.get_close_matches(name, names, n=3, cutoff=0.6)
     return f"did you mean {', '.join(matches)}?" if matches else ""
+
+
+def nearest_or_all(name: str, known: Iterable[str], most: int = 8) -> str:
+    """Return the known names nearest to ``name``, or the first of all of them if none is near."""
+    names = list(known)
+    rest = f" and {len(names) - most} more" if len(names) > most else ""
+    return nearest(name, names) or (f"there is {', '.join(names[:most])}{rest}" if names else "there is none")

@@ -11,7 +11,7 @@ from typing import Any
 
 import casadi as ca
 
-from arthur_acausal.errors import ArthurError, DeclarationError, nearest
+from arthur_acausal.errors import ArthurError, DeclarationError, nearest_or_all
 
 # Code between the author's line and what it asks for: this package's stages (not components and models), CasADi.
 _PACKAGE = Path(__file__).parents[1]
@@ -77,7 +77,11 @@ def _explained(error: Exception, what: str, path: str, where: str) -> Declaratio
     if isinstance(error, AttributeError) and error.name and hasattr(error.obj, "_declarations"):
         return _attribute(error.obj, error.name, path, where)
     return DeclarationError(
-        f"{what} failed: {error}", path=path, where=where, cause=f"Python raised {type(error).__name__}"
+        f"{what} failed: {error}",
+        path=path,
+        where=where,
+        cause=f"Python raised {type(error).__name__}",
+        remedy="correct the line, or what it is given",
     )
 
 
@@ -101,5 +105,5 @@ def _attribute(model: Any, name: str, path: str, where: str) -> DeclarationError
         f"{type(model).__name__} has no {name!r}",
         path=path,
         where=where,
-        remedy=nearest(name, known) or f"it has {', '.join(known) or 'nothing'}",
+        remedy=nearest_or_all(name, known),
     )

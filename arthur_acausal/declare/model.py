@@ -12,7 +12,7 @@ from casadi import SX
 from arthur_acausal.declare.authored import calling_line
 from arthur_acausal.declare.quantity import Real, parameter
 from arthur_acausal.declare.scope import Scope
-from arthur_acausal.errors import DeclarationError, nearest
+from arthur_acausal.errors import DeclarationError, nearest_or_all
 
 Equations: TypeAlias = Iterator[Any]
 
@@ -117,7 +117,7 @@ class Model:
                 raise DeclarationError(
                     f"{type(self).__name__} has no {name!r}",
                     where=where,
-                    remedy=nearest(name, known) or f"it has {', '.join(known) or 'nothing to modify'}",
+                    remedy=nearest_or_all(name, known),
                 )
         self.__dict__.update(_modifications=modifications, _binding=None, _where=where)
         for name, default in declared.structural.items():
@@ -149,7 +149,7 @@ def title_of(model: Model) -> str:
     return (model._binding.path if model._binding else "") or type(model).__name__
 
 
-@dataclass_transform(kw_only_default=True, field_specifiers=(parameter,))
+@dataclass_transform(kw_only_default=True, eq_default=False, field_specifiers=(parameter,))
 class Component(Model):
     """A piece of a model: parameters, variables, connectors, parts, and the equations between them.
 
@@ -179,7 +179,7 @@ class Component(Model):
         object.__setattr__(self, name, value)
 
 
-@dataclass_transform(kw_only_default=True, field_specifiers=(parameter,))
+@dataclass_transform(kw_only_default=True, eq_default=False, field_specifiers=(parameter,))
 class Connector(Model):
     """Where components meet: potentials are equal, flows sum to zero.
 
@@ -189,6 +189,6 @@ class Connector(Model):
     medium: ClassVar[type[Record] | None] = None
 
 
-@dataclass_transform(kw_only_default=True, field_specifiers=(parameter,))
+@dataclass_transform(kw_only_default=True, eq_default=False, field_specifiers=(parameter,))
 class Record(Model):
     """A named set of parameters that several components may share."""

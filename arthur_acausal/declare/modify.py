@@ -10,13 +10,13 @@ from casadi import SX
 
 from arthur_acausal.declare.authored import authored
 from arthur_acausal.declare.model import MISSING, Binding, Model
-from arthur_acausal.declare.quantity import Real, Start
+from arthur_acausal.declare.quantity import Quantity, Start
 from arthur_acausal.declare.scope import Declared, Later, Scope
 from arthur_acausal.errors import ArthurError, DeclarationError, ParameterError
 from arthur_acausal.units import to_si
 
 
-def declared(bound: Model, path: str, quantity: Real, modification: Any) -> Declared:
+def declared(bound: Model, path: str, quantity: Quantity, modification: Any) -> Declared:
     """Return the entry of one quantity of ``bound``, its modification (or MISSING) taken in."""
     binding = bound._binding
     assert binding is not None
@@ -36,7 +36,7 @@ def declared(bound: Model, path: str, quantity: Real, modification: Any) -> Decl
     return entry
 
 
-def _valued(bound: Model, binding: Binding, path: str, quantity: Real, modification: Any) -> Declared:
+def _valued(bound: Model, binding: Binding, path: str, quantity: Quantity, modification: Any) -> Declared:
     entry = Declared(path, quantity, depth=binding.depth, where=bound._where)
     if modification is MISSING:
         if quantity.default is None and quantity.kind == "parameter":

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, overload
 
 from casadi import SX
 
+from arthur_acausal.declare.authored import calling_line
 from arthur_acausal.errors import DeclarationError
 from arthur_acausal.units import parse_unit
 
 if TYPE_CHECKING:
-    import pint
+    from pint.facets.plain import PlainQuantity
 
 Kind: TypeAlias = Literal["parameter", "variable", "potential", "flow", "input", "output", "discrete"]
 StateSelect: TypeAlias = Literal["never", "avoid", "default", "prefer", "always"]
-Scalar: TypeAlias = "float | SX | pint.Quantity[Any] | str"
+Scalar: TypeAlias = "float | SX | PlainQuantity[Any] | str"  # pint makes its Quantity a subclass of this one
 Deferred: TypeAlias = Callable[[Any], "float | SX"]
 
 
@@ -40,8 +41,8 @@ def start(
 
 
 @dataclass(slots=True, eq=False)
-class Real:
-    """One declared quantity: the declaration on the class, a CasADi symbol on an instance.
+class Quantity:
+    """What is declared of one quantity.
 
     ``unit`` is coherent SI in pint's syntax; ``display`` names the unit that people read. ``default`` belongs to
     parameters and signals, ``start``, ``fixed``, ``nominal`` and ``state_select`` to variables.
@@ -61,16 +62,18 @@ class Real:
     name: str = ""
 
     def __post_init__(self) -> None:
-        if parse_unit(self.unit).scale != 1.0:
+        if not parse_unit(self.unit).coherent:
             raise DeclarationError(
                 f"the unit {self.unit!r} is not coherent SI",
+                where=calling_line(),
                 remedy=f"declare the quantity in SI units and give display={self.unit!r}",
             )
         if self.nominal is not None and not self.nominal > 0.0:
-            raise DeclarationError(f"nominal must be positive, not {self.nominal}")
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
+            raise DeclarationError(
+                f"nominal must be positive, not {self.nominal}",
+                where=calling_line(),
+                remedy="give the quantity's typical magnitude in SI",
+            )
 
     @property
     def space(self) -> Literal["variable", "parameter", "discrete"]:
@@ -78,6 +81,19 @@ class Real:
         if self.kind == "parameter" or self.kind == "discrete":
             return self.kind
         return "variable"
+
+
+class Real(Quantity):
+    """One declared quantity: the declaration on the class, a CasADi symbol on an instance.
+
+    Only components, connectors and records have attributes of this type: everywhere else a declaration is a
+    ``Quantity``, for which type checkers know no symbol.
+    """
+
+    __slots__ = ()
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
 
     @overload
     def __get__(self, instance: None, owner: type) -> Real: ...
@@ -91,7 +107,8 @@ class Real:
     def __set__(self, instance: object, value: Value) -> None:
         raise DeclarationError(
             f"{type(instance).__name__}.{self.name} cannot be assigned",
-            remedy=f"give it where the component is made: {type(instance).__name__}({self.name}=...)",
+            remedy=f"yield {self.name} == ... in equations(), or give it where the component is made: "
+            f"{type(instance).__name__}({self.name}=...)",
         )
 
 

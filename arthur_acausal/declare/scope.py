@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 
 from casadi import SX
 
-from arthur_acausal.declare.quantity import Real, Start
+from arthur_acausal.declare.quantity import Quantity, Start
 from arthur_acausal.errors import DeclarationError
 
 AtomKind: TypeAlias = Literal["variable", "der", "parameter", "discrete", "pre", "mode", "time"]
@@ -28,7 +28,7 @@ class Declared:
     """One quantity at its place in the model: ``value`` is the modification or default of a parameter."""
 
     path: str
-    quantity: Real
+    quantity: Quantity
     value: Any = None
     start: Start | None = None
     depth: int = 0  # of the modification's owner; 0 is the root: the outermost modification wins
@@ -108,7 +108,7 @@ class Scope:
             return None
         return self._atoms.get(symbol.element_hash())
 
-    def quantity(self, atom: Atom) -> Real | None:
+    def quantity(self, atom: Atom) -> Quantity | None:
         """Return the declaration behind an atom; None for time and relations."""
         space = {"der": "variable", "pre": "discrete"}.get(atom.kind, atom.kind)
         if space in ("time", "mode"):

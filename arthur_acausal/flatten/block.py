@@ -174,8 +174,8 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
         raise _bad(
             component,
             where,
-            f"an equation that is always {truth}",
-            "both sides are the same expression or numbers",
+            f"an equation that is always {truth}: both sides are the same expression, or numbers",
+            "remove it, or write what was meant",
         )
     else:
         raise _bad(

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from casadi import SX
 
 from arthur_acausal.declare.model import Component, Connector, Model, title_of
-from arthur_acausal.declare.quantity import Real
+from arthur_acausal.declare.quantity import Quantity
 from arthur_acausal.declare.scope import Scope
 from arthur_acausal.errors import ConnectError, UnitError
 from arthur_acausal.units import format_dimension, parse_unit
@@ -129,7 +129,7 @@ def _is_part(candidate: Model | None, owner: Component) -> bool:
     return candidate is not None and candidate._binding is not None and candidate._binding.owner is owner
 
 
-def _pairs(a: Connector, b: Connector) -> list[tuple[Real, Real]]:
+def _pairs(a: Connector, b: Connector) -> list[tuple[Quantity, Quantity]]:
     return [(q, b._declarations.quantities[name]) for name, q in a._declarations.quantities.items()]
 
 
@@ -213,7 +213,7 @@ def _join_signals(a: SX, b: SX, owner: Component, scope: Scope, where: str, foun
     found.aliases.append(Alias(atoms[0].number, atoms[1].number, where))
 
 
-def _is_sink(path: str, quantity: Real, owner: str) -> bool:
+def _is_sink(path: str, quantity: Quantity, owner: str) -> bool:
     """A part's input takes a value, and so does the owner's own output."""
     own = path.rpartition(".")[0] == owner
     return (quantity.kind == "input") != own

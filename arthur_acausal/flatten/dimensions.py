@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from fractions import Fraction
 
 import casadi as ca
 from casadi import SX
 
-from arthur_acausal.declare.scope import Atom, Scope
+from arthur_acausal.declare.scope import Atom, Declared, Scope
 from arthur_acausal.errors import UnitError
 from arthur_acausal.flatten.block import Assignment, Block, Expression, make_expression, shortened
 from arthur_acausal.units import Dimension, divide, format_dimension, multiply, parse_unit, power
@@ -40,16 +40,12 @@ class _MismatchError(Exception):
 def check_block(block: Block, scope: Scope, path: str) -> None:
     """Raise UnitError unless the block's equations, relations and assignments are homogeneous."""
     for equation in block.equations + block.initial:
-        with _located(equation.name, path, equation.label, equation.where):
+        with _located(lambda: f"{equation.lhs} == {equation.rhs}", path, equation.label, equation.where):  # noqa: B023
             memo = _memo(equation.residual, scope)
-            _same(
-                _dimension(equation.lhs, memo),
-                _dimension(equation.rhs, memo),
-                "the left side",
-                "the right side",
-            )
+            sides = _dimension(equation.lhs, memo), _dimension(equation.rhs, memo)
+            _same(*sides, "the left side", "the right side")
     for relation in block.relations:
-        with _located(relation.text, path, "", relation.where):
+        with _located(lambda: relation.text, path, "", relation.where):  # noqa: B023
             _dimension(relation.g.value, _memo(relation.g, scope))
     for clause in block.clauses:
         for assignment in clause.assignments:
@@ -57,13 +53,12 @@ def check_block(block: Block, scope: Scope, path: str) -> None:
 
 
 def _check_assignment(assignment: Assignment, scope: Scope, path: str, label: str) -> None:
-    if assignment.target is None:
+    target, value = assignment.target, assignment.value
+    if target is None:
         return
-    name = scope.name(assignment.target)
-    given = shortened(str(assignment.value.value))
-    with _located(f"{name} becomes {given}", path, label, assignment.where):
-        value = _dimension(assignment.value.value, _memo(assignment.value, scope))
-        _same(_of(assignment.target, scope), value, name, given)
+    with _located(lambda: f"{scope.name(target)} becomes {value.value}", path, label, assignment.where):
+        given = _dimension(value.value, _memo(value, scope))
+        _same(_of(target, scope), given, scope.name(target), "its new value")
 
 
 def check_values(scope: Scope) -> None:
@@ -74,28 +69,31 @@ def check_values(scope: Scope) -> None:
         if not isinstance(value, SX) or value.is_constant():
             continue
         key = (value.element_hash(), declared.quantity.unit)
-        if key in known:
-            continue
-        with _located(f"the value {shortened(str(value))}", declared.path, "", declared.where):
-            found = _dimension(value, _memo(make_expression(value, declared.where, scope), scope))
-            _same(parse_unit(declared.quantity.unit).dimension, found, declared.quantity.name, "the value")
-        known.add(key)
+        if key not in known:
+            known.add(key)
+            _check_value(value, declared, scope)
+
+
+def _check_value(value: SX, declared: Declared, scope: Scope) -> None:
+    with _located(lambda: f"the value {value}", declared.path, "", declared.where):
+        found = _dimension(value, _memo(make_expression(value, declared.where, scope), scope))
+        _same(parse_unit(declared.quantity.unit).dimension, found, declared.quantity.name, "the value")
 
 
 @contextmanager
-def _located(what: str, path: str, label: str, where: str) -> Iterator[None]:
+def _located(what: Callable[[], str], path: str, label: str, where: str) -> Iterator[None]:
+    """Raise a mismatch as a UnitError; ``what`` tells what is being checked."""
     try:
         yield
     except _MismatchError as mismatch:
-        shown = f"{what}: {mismatch}" if not label else str(mismatch)
-        raise UnitError(shown, path=path, equation=label, where=where, remedy=mismatch.remedy) from None
+        message = f"{shortened(what())}: {mismatch}"
+        raise UnitError(message, path=path, equation=label, where=where, remedy=mismatch.remedy) from None
 
 
 def _same(a: Dimension | None, b: Dimension | None, name_a: str, name_b: str) -> None:
     if a is not ANY and b is not ANY and a != b:
-        raise _MismatchError(
-            f"{name_a} is {format_dimension(_sure(a))}, but {name_b} {format_dimension(_sure(b))}"
-        )
+        texts = format_dimension(_sure(a)), format_dimension(_sure(b))
+        raise _MismatchError(f"{name_a} is {texts[0]}, but {name_b} is {texts[1]}")
 
 
 def _memo(expression: Expression, scope: Scope) -> Memo:

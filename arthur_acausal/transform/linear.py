@@ -31,7 +31,7 @@ class LinearAnalysis:
 
     def negated(self, coefficient: Coefficient) -> Coefficient:
         """Return minus a coefficient; the same expression for the same one."""
-        if coefficient is None or isinstance(coefficient, float):
+        if not isinstance(coefficient, SX):
             return None if coefficient is None else -coefficient
         key = coefficient.element_hash()
         if key not in self._negated:
