@@ -27,9 +27,9 @@ def difference(said: str, printed: str) -> str:
 
 def normal(text: str) -> str:
     """The text with what may differ made equal."""
-    text = STATISTICS.sub(lambda m: NUMBER.sub(COUNT, m[0]), text)
     text = VERIFICATION.sub(r"\1", text)  # which equations are the worst is a matter of rounding
     text = DURATION.sub(f"{COUNT} s", text)
+    text = STATISTICS.sub(lambda m: NUMBER.sub(COUNT, m[0]), text)
     return NUMBER.sub(lambda m: COUNT if 0.0 < abs(value(m[0])) < SMALL else m[0], text)
 
 
