@@ -68,7 +68,7 @@ class SizedBlock(Block):
 
     def __new__(cls, **modifications: Any) -> Self:
         """Return an instance of the class with as many members."""
-        sized = cls if cls._is_sized else _sized(cls, tuple(cls._members(modifications).items()))
+        sized = cls if cls._is_sized else _sized(cast("Any", cls), tuple(cls._members(modifications).items()))
         return cast("Self", object.__new__(sized))
 
     @classmethod
