@@ -90,8 +90,8 @@ def settle(scope: Scope) -> None:
 
 
 def _plain(value: Any, entry: Declared) -> Any:
-    """Return a value as a float in SI, within its bounds, or as an SX of parameters."""
-    if value is None or isinstance(value, SX):
+    """Return a value as a float in SI, within its bounds, or as an SX of parameters; None: no start value."""
+    if isinstance(value, SX) or (value is None and entry.quantity.kind != "parameter"):
         return value
     try:
         number = to_si(value, entry.quantity.unit, path=entry.path)
