@@ -69,7 +69,8 @@ def report(dae: StructuredDAE) -> StructureReport:
             f"{len(dae.reduced.differentiated)} equations were differentiated (index {dae.reduced.index})"
         )
     if flat.inputs:
-        messages.append(f"{len(flat.inputs)} inputs come from outside")
+        number = len(flat.inputs)
+        messages.append("1 input comes from outside" if number == 1 else f"{number} inputs come from outside")
     return StructureReport(
         model=flat.name,
         equations=flat.n_equations,
