@@ -56,8 +56,8 @@ def overview(library: ModuleType) -> str:
 
 
 def first_line(kind: type[Any]) -> str:
-    """The first line of a docstring, safe within a table."""
-    return docstring(kind).partition("\n")[0].replace("|", "\\|")
+    """The first line of a docstring."""
+    return docstring(kind).partition("\n")[0]
 
 
 def short(library: ModuleType) -> str:
@@ -208,13 +208,13 @@ def number(value: Any) -> str:
 
 
 def code(text: str) -> str:
-    """Text as code, safe within a table."""
-    return f"`{text}`".replace("|", "\\|")
+    """Text as code."""
+    return f"`{text}`"
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A table; columns without any content are left out, and the table where there is no row."""
-    listed = [list(row) for row in rows]
+    listed = [[cell.replace("|", "\\|") for cell in row] for row in rows]
     used = [k for k, title in enumerate(head) if k == 0 or any(row[k] for row in listed)]
     if not listed:
         return ""

@@ -1,12 +1,13 @@
-"""Links within the documents lead somewhere; pictures are small."""
+"""Links within the documents lead somewhere, pictures are small, tables have whole rows."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
-from tests.docs.markdown import PAGES, ROOT, anchors, links
+from tests.docs.markdown import FENCE, PAGES, ROOT, anchors, links
 
 LARGEST_PICTURE = 200_000  # bytes
 
@@ -22,6 +23,22 @@ def test_links_resolve(page: Path) -> None:
         if not file.exists() or (anchor and anchor not in anchors(file.read_text(encoding="utf-8"))):
             broken.append(target)
     assert not broken
+
+
+@pytest.mark.parametrize("page", [pytest.param(page, id=str(page.relative_to(ROOT))) for page in PAGES])
+def test_tables_have_as_many_cells_in_each_row(page: Path) -> None:
+    text = FENCE.sub("", page.read_text(encoding="utf-8"))
+    wrong = []
+    cells = 0
+    for line in text.splitlines():
+        if not line.startswith("|"):
+            cells = 0
+            continue
+        count = len(re.findall(r"(?<!\\)\|", line))
+        if cells and count != cells:
+            wrong.append(line)
+        cells = cells or count
+    assert not wrong
 
 
 def test_every_page_is_linked_from_the_index() -> None:
