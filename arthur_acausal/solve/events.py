@@ -26,6 +26,8 @@ from arthur_acausal.solve.trajectory import Event
 AFTER = "check what reinit sets, and that the equations have a solution after the event"
 DIFFERENCE = 1e-7  # forward difference, relative to the time in which a state moves by its own magnitude
 NEARBY = 1e-3  # relative distance of the point where a change of law shows that the event itself hides
+TRUST = 10.0  # a relation that IDA found to change has changed while g is within so many tolerances of zero
+TRUSTED_PASSES = 10  # modes that go round because one of them is held so: from then on the present values decide
 TINY = 1e-300
 
 
@@ -80,7 +82,8 @@ class EventIteration:
         pending, reset = inputs_jump, False
         moving: Index = np.zeros(0, dtype=np.intp)
         for number in range(self._options.max_event_iterations):
-            modes = self._right_limit(flagged, resolution, np.inf if number == 0 else 0.0 if reset else 1.0)
+            doubtful = reset or number > TRUSTED_PASSES
+            modes = self._right_limit(flagged, resolution, np.inf if number == 0 else 0.0 if doubtful else TRUST)
             moving = np.flatnonzero(modes != (evaluator.m > 0.5))
             evaluator.m[:] = modes
             rising = self._rising()
@@ -155,13 +158,17 @@ class EventIteration:
         """Truth values just after the instant.
 
         Flagged relations have the value they are known to take as long as their g is no larger than `trust` times
-        what the tolerance leaves uncertain: algebraic variables move by that much when they are solved for anew.
+        the tolerance on their scale: algebraic variables move by about that much when they are solved for anew.
         """
         evaluator = self._evaluator
         if not evaluator.m.size:
             return np.zeros(0, dtype=bool)
         t, y = float(evaluator.t[0]), evaluator.y.copy()
-        self._scale = np.maximum(self._scale, np.abs(evaluator.roots()))
+        g = evaluator.roots().copy()
+        evaluator.y[:] += self._nearby[: y.size] / NEARBY * np.maximum(np.abs(y), self._system.nominal)
+        elsewhere = np.nan_to_num(evaluator.roots(), nan=0.0, posinf=0.0, neginf=0.0)
+        self._scale = np.maximum(self._scale, np.maximum(np.abs(g), np.abs(elsewhere - g)))
+        evaluator.y[:] = y
         evaluator.t[0] = t + resolution
         evaluator.y[:] += resolution * evaluator.yp
         g = evaluator.roots().copy()

@@ -71,13 +71,15 @@ def newton(
     residual = system.residual(w).copy()
     if not np.isfinite(residual).all():
         return Solved(w, "not finite", 0, np.inf)
-    size = np.inf
+    size = full = np.inf
     for iteration in range(1, most + 1):
         matrix = system.matrix()
         solve, singular = factorise(matrix, np.maximum(np.abs(w), scale))
         step = -solve(residual)
-        size = _size(step, w, scale)
-        if size <= tolerance or not np.isfinite(size):
+        size, before = _size(step, w, scale), full
+        full = size
+        rounding = 0.5 * before < size <= ROUNDING * tolerance and not singular  # so near, Newton's steps shrink fast
+        if size <= tolerance or rounding or not np.isfinite(size):
             w = np.clip(w + step, low, high) if np.isfinite(size) else w
             return Solved(w, "singular" if singular else "", iteration, size, solve)
         found = _damped(system, solve, w, step, size, scale, low, high)

@@ -126,3 +126,14 @@ def test_scaled_rows_compare_residuals_of_unlike_equations() -> None:
 def test_long_lists_are_cut() -> None:
     assert listed(["a", "b"]) == "a, b"
     assert listed([str(k) for k in range(9)], "; ") == "0; 1; 2; 3; 4; 5 and 3 more"
+
+
+def test_corrections_that_are_rounding_errors_end_the_iteration() -> None:
+    """A residual known to 1e-8 only: corrections above the tolerance no longer shrink, the solution is as good as can be."""
+    random = np.random.default_rng(1)
+    solved = solve(
+        lambda w: w**3 - 8.0 + 1e-7 * random.uniform(-1.0, 1.0, 1), lambda w: np.diag(3 * w**2), [3.0]
+    )
+    assert not solved.reason
+    assert solved.iterations < 20
+    assert solved.w == pytest.approx([2.0], abs=1e-7)
