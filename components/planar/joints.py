@@ -46,8 +46,8 @@ class Revolute(Component):
 class LoopRevolute(Revolute):
     """A pin in a kinematic loop whose angle follows from other joints: it is not preferred as a state.
 
-    Take it for all pins of a loop but the one that drives. The start value of ``phi`` [rad] says which way the loop is
-    assembled.
+    Take it for all pins of a loop but the one that drives. Start values of the bodies' angles say which way the loop
+    is assembled.
     """
 
     phi: Real = variable("rad", start=0.0, description="angle of frame_b over frame_a")
@@ -92,10 +92,7 @@ class Prismatic(Component):
 
 
 class LoopPrismatic(Prismatic):
-    """A slide in a kinematic loop whose position follows from other joints: it is not preferred as a state.
-
-    The start value of ``s`` [m] says which way the loop is assembled.
-    """
+    """A slide in a kinematic loop whose position follows from other joints: it is not preferred as a state."""
 
     s: Real = variable("m", start=0.0, description="distance along the axis")
     v: Real = variable("m/s", start=0.0, description="its speed")

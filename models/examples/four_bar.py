@@ -7,15 +7,21 @@ from arthur_acausal.components.planar import Body, Fixed, FixedTranslation, Fram
 
 
 class Link(Component):
-    """A uniform bar of length ``L`` [m] and mass ``m`` [kg] from frame_a to frame_b, along their x-axis."""
+    """A uniform bar of length ``L`` [m] and mass ``m`` [kg] from frame_a to frame_b, along their x-axis.
+
+    ``phi_0`` [rad]: about the angle at which it starts, so that a loop is assembled the right way.
+    """
 
     frame_a = Frame()
     frame_b = Frame()
     L: Real = parameter("m", min=0.0)
     m: Real = parameter("kg", min=0.0)
+    phi_0: Real = parameter("rad", default=0.0)
     half_a = FixedTranslation(r_x=lambda self: self.L / 2)
     half_b = FixedTranslation(r_x=lambda self: self.L / 2)
-    body = Body(m=lambda self: self.m, J=lambda self: self.m * self.L**2 / 12)
+    body = Body(
+        m=lambda self: self.m, J=lambda self: self.m * self.L**2 / 12, phi=start(lambda self: self.phi_0)
+    )
 
     def equations(self) -> Equations:
         yield connect(self.frame_a, self.half_a.frame_a)
@@ -35,12 +41,12 @@ class FourBar(Component):
     left = Fixed()
     right = Fixed(x0=2.0)
     crank_pin: Revolute = Revolute(phi=start(0.0, fixed=True), w=start(lambda self: self.w_0, fixed=True))
-    coupler_pin: LoopRevolute = LoopRevolute(phi=start(0.7))
-    rocker_pin: LoopRevolute = LoopRevolute(phi=start(1.9))
-    end_pin: LoopRevolute = LoopRevolute(phi=start(1.2))
+    coupler_pin: LoopRevolute = LoopRevolute()
+    rocker_pin: LoopRevolute = LoopRevolute()
+    end_pin: LoopRevolute = LoopRevolute()
     crank: Link = Link(L=0.5, m=1.0)
-    coupler: Link = Link(L=2.0, m=2.0)
-    rocker: Link = Link(L=1.5, m=1.5)
+    coupler: Link = Link(L=2.0, m=2.0, phi_0=0.8)
+    rocker: Link = Link(L=1.5, m=1.5, phi_0=1.7)
 
     def equations(self) -> Equations:
         yield connect(self.left.frame, self.crank_pin.frame_a)
