@@ -21,7 +21,7 @@ class Frame(Connector):
 
 
 class Gravity(Record):
-    """The field of gravity in the plane; give one to all bodies: ``gravity=lambda self: self.gravity``."""
+    """The field of gravity in the plane; in ``build`` give one to all bodies: ``Body(gravity=self.gravity)``."""
 
     g_x: Real = parameter("m/s^2", default=0.0)
     g_y: Real = parameter("m/s^2", default=-9.81)

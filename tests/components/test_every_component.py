@@ -9,11 +9,19 @@ from typing import Any
 import pytest
 
 from arthur_acausal import Component
-from arthur_acausal.components import blocks, electrical, hydraulic, rotational, thermal, translational
+from arthur_acausal.components import (
+    blocks,
+    electrical,
+    hydraulic,
+    planar,
+    rotational,
+    thermal,
+    translational,
+)
 from arthur_acausal.flatten.flatten import flatten
 
 ABSTRACT = {"TwoPort", "Compliant", "Block", "SISO", "Source"}
-ABSTRACT |= {"TwoPin", "FourPin", "HeatingTwoPin", "ThermalElement"}
+ABSTRACT |= {"LineForce", "TwoPin", "FourPin", "HeatingTwoPin", "ThermalElement"}
 CURVE = {"times": (0.0, 1.0, 3.0), "values": (0.0, 2.0, 1.0)}
 STRUCTURAL: dict[str, dict[str, Any]] = {
     "TimeTable": CURVE,
@@ -48,13 +56,26 @@ OPTIONS = [
     electrical.Resistor(R=1.0, use_heat_port=True),
     electrical.HeatingDiode(use_heat_port=False),
     thermal.ThermalCollector(m=5),
+    planar.Revolute(use_flange=True),
+    planar.Prismatic(use_flange=True),
+    planar.PointMass(m=1.0, alone=True),
+    rotational.BearingFriction(use_support=True, tau_pos=((0.0, 1.0), (1.0, 2.0), (3.0, 2.5))),
+    rotational.Brake(use_support=True, f_n_max=1.0),
+    rotational.IdealGear(use_support=True),
+    rotational.IdealGearR2T(use_support=True, ratio=1.0),
+    rotational.LossyGear(use_support=True, losses=((0.0, 0.9, 0.8, 1.0, 1.2), (1.0, 0.95, 0.9, 1.1, 1.3))),
+    rotational.TorqueSource(use_support=True),
+    rotational.AngleSource(exact=True),
+    translational.Brake(use_support=True, f_n_max=1.0),
+    translational.MassWithFriction(use_support=True, m=1.0),
+    translational.SupportFriction(use_support=True),
 ]
 
 
 def library() -> list[type[Component]]:
     """All component classes that can be used as they are."""
     found: list[type[Component]] = []
-    modules: list[ModuleType] = [blocks, electrical, hydraulic, rotational, thermal, translational]
+    modules: list[ModuleType] = [blocks, electrical, hydraulic, planar, rotational, thermal, translational]
     for module in modules:
         members = [getattr(module, name) for name in module.__all__]
         found += [m for m in members if inspect.isclass(m) and issubclass(m, Component)]

@@ -228,8 +228,10 @@ def test_a_motor_turns_an_arm_about_its_pin() -> None:
         ground = Fixed()
         pin = Revolute(use_flange=True, phi=start(0.2, fixed=True), w=start(0.0, fixed=True))
         link = FixedTranslation(r_x=0.3, r_y=0.4)
-        body: Body = Body(m=2.0, J=0.1, gravity=lambda self: self.weightless)
         motor = rot.ConstantTorque(tau_constant=3.0)
+
+        def build(self) -> None:
+            self.body = Body(m=2.0, J=0.1, gravity=self.weightless)
 
         def equations(self) -> Equations:
             yield connect(self.ground.frame, self.pin.frame_a)
@@ -248,15 +250,11 @@ def test_a_mass_on_a_spring_keeps_its_angular_momentum() -> None:
         weightless: Gravity = Gravity(g_y=0.0)
         ground = Fixed()
         spring = Spring(c=10.0, s_0=0.5)
-        mass: PointMass = PointMass(
-            alone=True,
-            m=0.4,
-            x=start(1.0, fixed=True),
-            y=start(0.0, fixed=True),
-            v_x=start(0.5, fixed=True),
-            v_y=start(2.0, fixed=True),
-            gravity=lambda self: self.weightless,
-        )
+
+        def build(self) -> None:
+            initial = {"x": 1.0, "y": 0.0, "v_x": 0.5, "v_y": 2.0}
+            given = {name: start(value, fixed=True) for name, value in initial.items()}
+            self.mass = PointMass(alone=True, m=0.4, gravity=self.weightless, **given)
 
         def equations(self) -> Equations:
             yield connect(self.ground.frame, self.spring.frame_a)
