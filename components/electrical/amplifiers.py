@@ -56,10 +56,11 @@ class IdealOpAmpLimited(LimitedOpAmp):
     def equations(self) -> Equations:
         yield from super().equations()
         s, low, high = self.s, self.v_min.v, self.v_max.v
-        below, above = s < -1, s > 1
-        yield "input", self.v_in == self.V_unit * if_else(above, s - 1, if_else(below, s + 1, 0))
+        above, below = if_else(s > 1, 1, 0), if_else(s < -1, 1, 0)
+        inside = 1 - above - below
+        yield "input", self.v_in == self.V_unit * (above * (s - 1) + below * (s + 1))
         middle = (high + low) / 2 + s * (high - low) / 2
-        yield "output", self.out.v == if_else(above, high, if_else(below, low, middle))
+        yield "output", self.out.v == above * high + below * low + inside * middle
 
 
 class OpAmp(LimitedOpAmp):

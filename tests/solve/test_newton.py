@@ -129,7 +129,7 @@ def test_long_lists_are_cut() -> None:
 
 
 def test_corrections_that_are_rounding_errors_end_the_iteration() -> None:
-    """A residual known to 1e-8 only: corrections above the tolerance no longer shrink, the solution is as good as can be."""
+    """A residual known to 1e-7 only: corrections above the tolerance that no longer shrink."""
     random = np.random.default_rng(1)
     solved = solve(
         lambda w: w**3 - 8.0 + 1e-7 * random.uniform(-1.0, 1.0, 1), lambda w: np.diag(3 * w**2), [3.0]

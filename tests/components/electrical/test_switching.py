@@ -100,7 +100,7 @@ def test_a_bridge_rectifies() -> None:
 
 
 def test_a_smoothed_bridge_settles() -> None:
-    """Between the peaks the capacitor feeds the load: v = v_off exp(-(t - t_off)/RC) from w R C tan(w t_off) = -1 on."""
+    """Between the peaks the capacitor feeds the load: v = v_off exp(-(t - t_off)/RC), from tan(w t_off) = -w R C on."""
     solution = simulate(Bridge(smoothed=True, Ron=1e-3), stop_time=0.2, options=PRECISE)
     w, RC = 100 * np.pi, 10.0 * 5e-3
     theta = np.pi - np.arctan(w * RC)  # where the decay is as steep as the sine: after the peak
