@@ -102,7 +102,7 @@ class NPN(Component):
     G_min: Real = parameter("S", default=1e-15, min=0.0)
     max_exp: Real = parameter("1", default=40.0)
     v_BE: Real = variable("V", start=0.6, description="base above emitter")
-    v_BC: Real = variable("V", start=-1.0, description="base above collector")
+    v_BC: Real = variable("V", start=0.6, description="base above collector")
     i_F: Real = variable("A", description="forward current")
     i_R: Real = variable("A", description="reverse current")
 
