@@ -13,7 +13,7 @@ from itertools import pairwise
 
 from casadi import SX, fabs, logic_and, logic_not, logic_or
 
-from arthur_acausal import Component, Equations, Real, discrete, if_else, pre, smooth_if_else
+from arthur_acausal import Component, Equations, Real, discrete, if_else, parameter, pre, smooth_if_else
 
 BACKWARD, STUCK, FORWARD, FREE, UNKNOWN = -1, 0, 1, 2, 3
 """Values of ``mode``; UNKNOWN only before the start."""
@@ -30,8 +30,14 @@ class StickSlip(Component):
     Discrete: ``mode`` [1], -1 sliding backward, 0 stuck, 1 sliding forward, 2 free of friction;
     ``start_forward``, ``start_backward`` [0 or 1], sliding begins at speed zero; ``locked`` [0 or 1], no sliding;
     ``direction`` [-1, 0, 1], the branch of the sliding friction; ``started`` [0 or 1], after the initialisation.
+
+    Two elements that hold the same part leave open which of them holds how much: give each a ``creep`` [1] of about
+    1e-9, and they share it, moving by that part of what ``sa`` would move a free inertia of the path's scale.
     """
 
+    creep: Real = parameter(
+        "1", default=0.0, min=0.0, description="acceleration while stuck, over that of sa alone"
+    )
     mode: Real = discrete("1", start=UNKNOWN, description="-1 backward, 0 stuck, 1 forward, 2 free")
     start_forward: Real = discrete("1", description="1: forward sliding begins at speed zero")
     start_backward: Real = discrete("1", description="1: backward sliding begins at speed zero")
@@ -48,10 +54,11 @@ class StickSlip(Component):
         is_free = truth(free) if free is not None else SX(0.0)
         was = pre(self.mode)
         forward, backward = self.moving(speed, unit)
-        pull, push = self.held_by(sa)
+        pull, push = torn(any_of(self.locked, self.start_forward, self.start_backward), sa)
+        still_pull, still_push = torn(any_of(self.start_forward, self.start_backward), sa)
         kept = (1 - HYSTERESIS) * least
-        over, still_over = truth(pull > most), truth(pull > kept)
-        under, still_under = truth(push < -most), truth(push < -kept)
+        over, still_over = truth(pull > most), truth(still_pull > kept)
+        under, still_under = truth(push < -most), truth(still_push < -kept)
         yield self.started == (was != UNKNOWN)
         yield self.start_forward == starting(was, forward, over, still_over, pre(self.start_forward))
         yield self.start_backward == starting(was, backward, under, still_under, pre(self.start_backward))
@@ -73,17 +80,12 @@ class StickSlip(Component):
         held = all_of(self.started, self.locked, self.mode == STUCK)
         return truth(smooth_if_else(held, -unit, speed) > 0), truth(smooth_if_else(held, unit, speed) < 0)
 
-    def held_by(self, sa: SX) -> tuple[SX, SX]:
-        """Return what tears at the contact forward, backward: ``sa``, but nothing while it slides.
-
-        There ``sa`` stands for the acceleration. So sticking is tried first when the speed has become zero.
-        """
-        at_rest = any_of(self.locked, self.start_forward, self.start_backward)
-        return smooth_if_else(at_rest, sa, -fabs(sa)), smooth_if_else(at_rest, sa, fabs(sa))
-
     def excess(self, sa: SX, most: SX) -> SX:
-        """Return ``sa`` without the friction of the branch: in proportion to the acceleration; 0 while locked."""
-        return smooth_if_else(self.locked, 0, sa - self.direction * most)
+        """Return ``sa`` without the friction of the branch: in proportion to the acceleration.
+
+        While locked it is ``creep`` times ``sa``: zero, unless several elements are to share what they hold.
+        """
+        return smooth_if_else(self.locked, self.creep * sa, sa - self.direction * most)
 
     def friction(self, sa: SX, ahead: SX, back: SX) -> SX:
         """Return the friction: ``sa`` while locked, else ``ahead`` or minus ``back``, by the direction of sliding."""
@@ -96,6 +98,14 @@ def starting(was: SX, moves: SX, over: SX, still_over: SX, before: SX) -> SX:
     return any_of(
         all_of(was == STUCK, any_of(over, all_of(before, still_over))), all_of(was == UNKNOWN, moves)
     )
+
+
+def torn(applies: SX, sa: SX) -> tuple[SX, SX]:
+    """Return what tears at the contact forward, backward: ``sa`` where it ``applies``, else what makes no event.
+
+    While it slides ``sa`` stands for the acceleration; so sticking is tried first when the speed has become zero.
+    """
+    return smooth_if_else(applies, sa, -fabs(sa)), smooth_if_else(applies, sa, fabs(sa))
 
 
 def truth(condition: SX) -> SX:

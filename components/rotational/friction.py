@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from casadi import SX, fabs, fmax, logic_not
+from casadi import SX, fmax, logic_not
 
 from arthur_acausal import (
     Equations,
@@ -23,6 +23,7 @@ from arthur_acausal.components.friction import (
     any_of,
     at_zero,
     interpolated,
+    torn,
     truth,
 )
 from arthur_acausal.components.rotational.elements import Compliant
@@ -188,14 +189,10 @@ class OneWayClutch(Compliant):
         yield self.P_loss == smooth_if_else(self.stuck, 0, self.tau * self.w_rel)
 
     def _branches(self, least: SX, most: SX) -> Equations:
-        held = all_of(
-            self.locked, pre(self.stuck) == 1
-        )  # the speed is rounding, whose sign would make events
-        speed = smooth_if_else(held, -self.w_unit, self.w_rel)
-        pull = smooth_if_else(
-            any_of(self.locked, self.start_forward), self.sa, -fabs(self.sa)
-        )  # sticking is tried first
-        over, still_over, ahead = truth(pull > most), truth(pull > (1 - HYSTERESIS) * least), truth(speed > 0)
+        held = all_of(self.started, self.locked)  # the speed is rounding, whose sign would make events
+        ahead = truth(smooth_if_else(held, -self.w_unit, self.w_rel) > 0)
+        over = truth(torn(any_of(self.locked, self.start_forward), self.sa)[0] > most)
+        still_over = truth(torn(self.start_forward, self.sa)[0] > (1 - HYSTERESIS) * least)
         was_stuck, unknown = pre(self.stuck) == 1, pre(self.stuck) == -1
         leaving = any_of(over, all_of(pre(self.start_forward), still_over))
         yield self.started == (pre(self.stuck) != -1)

@@ -16,6 +16,7 @@ from arthur_acausal.components.friction import (
     any_of,
     interpolated,
     starting,
+    torn,
     truth,
 )
 from arthur_acausal.components.rotational.flange import Flange
@@ -130,7 +131,7 @@ class LossyGear(StickSlip, Supported):
         yield self.tau_backward == smooth_if_else(driving, lost_2 - tau_2, lost_1 - tau_1)
         rolling = smooth_if_else(self.direction < 0, self.tau_backward, self.tau_forward)
         yield "torque lost", self.tau_loss == smooth_if_else(self.locked, self.sa, rolling)
-        excess = smooth_if_else(self.locked, 0, self.sa - self.tau_loss)
+        excess = smooth_if_else(self.locked, self.creep * self.sa, self.sa - self.tau_loss)
         yield "stuck or rolling", self.J_path * self.a_a == excess
 
     def _branches(self) -> Equations:
@@ -142,10 +143,11 @@ class LossyGear(StickSlip, Supported):
         least = smooth_if_else(tau + bearing > 0, lost_2 - tau_2, lost_1 - tau_1)
         was = pre(self.mode)
         forward, backward = self.moving(self.w_a, self.w_unit)
-        pull, push = self.held_by(self.sa)
+        pull, push = torn(any_of(self.locked, self.start_forward, self.start_backward), self.sa)
+        still_pull, still_push = torn(any_of(self.start_forward, self.start_backward), self.sa)
         over, under = truth(pull > most), truth(push < least)
-        still_over = truth(pull > most - HYSTERESIS * fabs(most))
-        still_under = truth(push < least + HYSTERESIS * fabs(least))
+        still_over = truth(still_pull > most - HYSTERESIS * fabs(most))
+        still_under = truth(still_push < least + HYSTERESIS * fabs(least))
         yield self.started == (was != UNKNOWN)
         yield self.start_forward == starting(was, forward, over, still_over, pre(self.start_forward))
         yield self.start_backward == starting(was, backward, under, still_under, pre(self.start_backward))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import pi
 
+from casadi import fabs
+
 from arthur_acausal import Component, Equations, Real, der, parameter, real_input, variable
 from arthur_acausal.components.rotational.flange import Flange
 from arthur_acausal.components.rotational.support import Supported
@@ -44,7 +46,7 @@ class QuadraticTorque(Component):
 
     def equations(self) -> Equations:
         yield self.w == der(self.flange.phi)
-        yield self.flange.tau == self.tau_n * self.w * (self.w**2) ** 0.5 / self.w_n**2
+        yield self.flange.tau == self.tau_n * self.w * fabs(self.w) / self.w_n**2
 
 
 class SpeedSource(Component):

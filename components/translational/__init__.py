@@ -22,17 +22,20 @@ from arthur_acausal.components.translational.sensors import (
     SpeedSensor,
 )
 from arthur_acausal.components.translational.sources import (
+    AccelerationSource,
     ConstantForce,
     ConstantSpeed,
     ForceSource,
     LoadForce,
     PositionSource,
+    QuadraticForce,
     SpeedSource,
 )
 from arthur_acausal.components.translational.stops import ElastoGap, EndStops
 
 __all__ = [
     "AccelerationSensor",
+    "AccelerationSource",
     "Brake",
     "Compliant",
     "ConstantForce",
@@ -50,6 +53,7 @@ __all__ = [
     "PositionSensor",
     "PositionSource",
     "PowerSensor",
+    "QuadraticForce",
     "RelativePositionSensor",
     "RelativeSpeedSensor",
     "Rod",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from casadi import fabs
+
 from arthur_acausal import Component, Equations, Real, der, parameter, real_input, real_output, variable
 from arthur_acausal.components.translational.flange import Flange
 
@@ -24,6 +26,19 @@ class ConstantForce(Component):
 
     def equations(self) -> Equations:
         yield self.flange.f == -self.f_constant
+
+
+class QuadraticForce(Component):
+    """A force against the motion in proportion to speed squared, as of the air: f_n (v/v_n)^2."""
+
+    flange = Flange()
+    f_n: Real = parameter("N", min=0.0, description="force against the motion at v_n")
+    v_n: Real = parameter("m/s", min=0.0, description="speed at which the force is f_n")
+    v: Real = variable("m/s", description="velocity of the flange")
+
+    def equations(self) -> Equations:
+        yield self.v == der(self.flange.s)
+        yield self.flange.f == self.f_n * self.v * fabs(self.v) / self.v_n**2
 
 
 class LoadForce(Component):
@@ -51,6 +66,20 @@ class SpeedSource(Component):
     def equations(self) -> Equations:
         yield self.flange.s == self.s
         yield der(self.s) == self.v
+
+
+class AccelerationSource(Component):
+    """Moves its flange with the acceleration ``a`` [m/s^2]. States: ``s`` [m], ``v`` [m/s]."""
+
+    flange = Flange()
+    a: Real = real_input("m/s^2", default=0.0)
+    s: Real = variable("m", start=0.0, fixed=True, state_select="prefer")
+    v: Real = variable("m/s", start=0.0, fixed=True, state_select="prefer")
+
+    def equations(self) -> Equations:
+        yield self.flange.s == self.s
+        yield self.v == der(self.s)
+        yield der(self.v) == self.a
 
 
 class PositionSource(Component):
