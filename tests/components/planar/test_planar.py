@@ -101,6 +101,13 @@ def test_a_double_pendulum_follows_lagranges_equations() -> None:
     assert np.ptp(energy(solution, "rods[0]", "rods[1]")) < 3e-7
 
 
+def test_the_angles_of_the_joints_are_the_states() -> None:
+    """They are preferred over the rods' places; in a loop the driving pin's is."""
+    assert translate(DoublePendulum()).report.states == ["upper.phi", "upper.w", "lower.phi", "lower.w"]
+    assert translate(FourBar()).report.states == ["crank_pin.phi", "crank_pin.w"]
+    assert translate(SliderCrank()).report.states == ["crank_pin.phi", "crank_pin.w"]
+
+
 def crossing(angle: float, energy_0: float, shape: Callable[[float], tuple[float, float]]) -> float:
     """Time in which a mechanism of one freedom turns from 0 to ``angle``: shape(q) gives its inertia and potential."""
 
