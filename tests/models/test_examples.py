@@ -12,7 +12,10 @@ from arthur_acausal.models import DESCRIPTIONS, REGISTRY
 from arthur_acausal.models.examples.accumulator_charge import AccumulatorCharge
 from arthur_acausal.models.examples.bouncing_ball import BouncingBall
 from arthur_acausal.models.examples.jack import Jack
+from arthur_acausal.models.examples.motor_control import MotorControl
+from arthur_acausal.models.examples.power_supply import PowerSupply
 from arthur_acausal.models.examples.rc_ladder import RCLadder
+from arthur_acausal.models.examples.room_heating import RoomHeating
 
 BOUNCES = [
     0.4515236409857309, 1.083656738365754, 1.5261499065317703, 1.8358951242479817, 2.0527167766493295,
@@ -58,3 +61,28 @@ def test_the_accumulator_fills_along_its_polytrope_until_the_relief_valve_opens(
     assert p[full] == pytest.approx(84e5 * (1e-4 / V_g[full]) ** 1.4, rel=1e-6)
     assert 138e5 < p[-1] < 142e5
     assert solution.final("relief.q") == pytest.approx(3.8e-3 / 60, rel=0.02)
+
+
+def test_the_power_supply_ripples() -> None:
+    """From peak to peak I/(2 f C) less the time in which the capacitor is charged: about three quarters of it."""
+    solution = simulate(PowerSupply(), 0.5, options=SolverOptions(intervals=5000))
+    v = solution["load.v"][solution.t > 0.46]
+    most = np.mean(v) / 20 / (100 * 4.7e-3)
+    assert 0.6 * most < np.ptp(v) < most
+    assert np.max(v) < 325 / 25 - 2 * 0.7
+
+
+def test_the_room_stays_within_half_a_kelvin() -> None:
+    """The heater's mean power is what the walls lose; its state changes at +-0.5 K."""
+    solution = simulate(RoomHeating(), 2 * 86400.0, options=SolverOptions(intervals=5000))
+    late = solution.t > 20000
+    assert solution["air.T"][late].min() == pytest.approx(293.65, abs=1e-4)
+    assert solution["air.T"][late].max() == pytest.approx(294.65, abs=1e-4)
+
+
+def test_the_motor_holds_its_speed() -> None:
+    """100 rad/s under a load of 1 N m: i = (tau + d w)/k = 11 A, and the voltage R i + k w = 15.5 V."""
+    solution = simulate(MotorControl(), 3.0, inputs={"load.tau": -1.0})
+    assert solution.final("rotor.w") == pytest.approx(100.0, rel=1e-3)
+    assert solution.final("L.i") == pytest.approx(11.0, rel=1e-3)
+    assert solution.final("controller.y") == pytest.approx(15.5, rel=1e-3)
