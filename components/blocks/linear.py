@@ -18,19 +18,13 @@ from arthur_acausal import (
     Real,
     der,
     parameter,
-    real_input,
-    real_output,
     variable,
 )
-from arthur_acausal.components.blocks.signal import SizedBlock
+from arthur_acausal.components.blocks.signal import SISO, SizedBlock
 
 
-class LinearBlock(SizedBlock):
+class LinearBlock(SizedBlock, SISO):
     """What linear blocks of any order share: one input ``u``, one output ``y``, states ``x_k``."""
-
-    _units: ClassVar[dict[str, str]] = {"u": "{u}", "y": "{y}"}
-    u: Real = real_input("1")
-    y: Real = real_output("1")
 
     @classmethod
     def _order(cls, given: Mapping[str, Any]) -> int:

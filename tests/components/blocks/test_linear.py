@@ -51,13 +51,20 @@ class Driven(Component):
 
 
 B, A = (2.0, 3.0, 5.0), (1.0, 4.0, 6.0, 8.0)
-BUTTER = signal.butter(5, 2 * np.pi * 0.5, analog=True)
+
+
+def butterworth(n: int) -> Any:
+    """SciPy's filter of order n with its corner at 0.5 Hz."""
+    coefficients: Any = signal.butter(n, 2 * np.pi * 0.5, analog=True)
+    return signal.lti(*coefficients)
+
+
 POLE = 2 * np.pi * 0.5 / np.sqrt(2 ** (1 / 3) - 1)
 SYSTEMS: list[tuple[SISO, Any]] = [
     (TransferFunction(b=B, a=A), signal.lti(B, A)),
     (TransferFunction(b=(1.0, 0.0, 2.0), a=(3.0, 1.0, 4.0)), signal.lti((1.0, 0.0, 2.0), (3.0, 1.0, 4.0))),
-    (LowpassButterworth(n=5, f=0.5), signal.lti(*BUTTER)),
-    (LowpassButterworth(n=4, f=0.5), signal.lti(*signal.butter(4, 2 * np.pi * 0.5, analog=True))),
+    (LowpassButterworth(n=5, f=0.5), butterworth(5)),
+    (LowpassButterworth(n=4, f=0.5), butterworth(4)),
     (CriticalDamping(n=3, f=0.5), signal.lti([POLE**3], np.poly([-POLE] * 3))),
     (
         StateSpace(A=((0.0, 1.0), (-4.0, -0.5)), B=(0.0, 2.0), C=(1.0, 0.5), D=0.25),
