@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from arthur_acausal import Component, SolverOptions
 
@@ -18,7 +18,7 @@ class Case:
     model : makes the model.
     signals : name in the reference -> path of the variable in the model, in the same unit.
     stop_time : end of the run, s.
-    options : of the solver.
+    options : of the solver; by default as many outputs as the references have, so that transients are seen alike.
     note : reason for a known difference from the reference, if there is one.
     """
 
@@ -26,5 +26,5 @@ class Case:
     model: Callable[[], Component]
     signals: Mapping[str, str]
     stop_time: float
-    options: SolverOptions = field(default_factory=SolverOptions)
+    options: SolverOptions = SolverOptions(intervals=5000)
     note: str = ""

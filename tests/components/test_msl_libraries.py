@@ -23,7 +23,7 @@ OF_RANGE, OF_SPAN = 1e-3, 2e-3
 @pytest.mark.parametrize("name", FIGURES["cases"])
 def test_an_example_stays_in_the_tube(name: str) -> None:
     case, figures = CASES[name], FIGURES["cases"][name]
-    solution = translate(case.model()).simulate(case.stop_time, options=case.options.replace(intervals=2000))
+    solution = translate(case.model()).simulate(case.stop_time, options=case.options)
     half = OF_SPAN * case.stop_time
     for signal, reference in figures["signals"].items():
         values = solution[case.signals[signal]]
