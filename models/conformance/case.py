@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from arthur_acausal import Component, SolverOptions
 
@@ -26,5 +26,5 @@ class Case:
     model: Callable[[], Component]
     signals: Mapping[str, str]
     stop_time: float
-    options: SolverOptions = SolverOptions(intervals=5000)
+    options: SolverOptions = field(default_factory=lambda: SolverOptions(intervals=5000))
     note: str = ""
