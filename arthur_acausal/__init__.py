@@ -24,9 +24,11 @@ if TYPE_CHECKING:
     from arthur_acausal.declare.quantity import variable as variable
     from arthur_acausal.declare.statement import connect as connect
     from arthur_acausal.declare.statement import der as der
+    from arthur_acausal.declare.statement import edge as edge
     from arthur_acausal.declare.statement import if_else as if_else
     from arthur_acausal.declare.statement import pre as pre
     from arthur_acausal.declare.statement import reinit as reinit
+    from arthur_acausal.declare.statement import sampled as sampled
     from arthur_acausal.declare.statement import smooth_if_else as smooth_if_else
     from arthur_acausal.declare.statement import terminate as terminate
     from arthur_acausal.declare.statement import time as time
@@ -68,6 +70,8 @@ _HOME = {
         "if_else",
         "pre",
         "reinit",
+        "edge",
+        "sampled",
         "smooth_if_else",
         "terminate",
         "time",

@@ -21,6 +21,7 @@ from arthur_acausal.codegen.tables import (
     FloatArray,
     Pattern,
     Relation,
+    SampledBlock,
     StartEntry,
     WhenClause,
 )
@@ -62,6 +63,7 @@ class CompiledDAE:
     pivot_labels: list[str] = field(repr=False)
     functions: dict[str, ca.Function] = field(repr=False)
     recovery: Recovery = field(repr=False)
+    samples: list[SampledBlock]
     sets: StateSets | None = field(repr=False)
     dummies: frozenset[int] = field(repr=False)
 
@@ -184,6 +186,16 @@ class Evaluator:
     def when_values(self) -> Kernel:
         """The right-hand side of each assignment, (n_assignments,)."""
         return self._kernel("when_values", self.zp)
+
+    @cached_property
+    def sample_inputs(self) -> Kernel:
+        """The inputs of all sampled blocks, one after the other."""
+        return self._kernel("sample_inputs")
+
+    @cached_property
+    def sample_times(self) -> Kernel:
+        """The periods of all sampled blocks [s], then their offsets [s]."""
+        return Kernel(self._dae.functions["sample_times"], [self.p])
 
     @cached_property
     def initial(self) -> Kernel:

@@ -22,7 +22,7 @@ from arthur_acausal.codegen.parameters import ParameterInfo, ParameterTable
 from arthur_acausal.codegen.recovery import Recovery, Source
 from arthur_acausal.codegen.starts import attribute_arrays, collect_starts
 from arthur_acausal.codegen.switching import RELATION, add_switching, continuation_starts
-from arthur_acausal.codegen.tables import Assignment, Relation, StartEntry, WhenClause
+from arthur_acausal.codegen.tables import Assignment, Relation, SampledBlock, StartEntry, WhenClause
 from arthur_acausal.declare.scope import Declared
 from arthur_acausal.errors import ParameterError
 from arthur_acausal.flatten.system import FlatEquation
@@ -107,6 +107,7 @@ def _functions(
     entries = add_switching(dae, assembly, look, events)
     initial, labels = _initial(dae, assembly, slots, [] if continuation else dae.flat.initial)
     slope = ca.horzcat(ca.jacobian(initial, a.y), ca.jacobian(initial, a.yp))
+    samples, sample_inputs, sample_times = _samples(dae, look)
     starts = [_start_value(dae, assembly, s.value, s.path) for s in slots]
     starts += [
         _start_value(dae, assembly, d.start.value if d.start else 0.0, d.path)
@@ -124,6 +125,8 @@ def _functions(
         "when_values": make("when_values", a.event(), [_column(values)]),
         "initial": make("initial", arguments, [initial]),
         "initial_jacobian": make("initial_jacobian", arguments, [slope]),
+        "sample_inputs": make("sample_inputs", arguments, [_column(sample_inputs)]),
+        "sample_times": make("sample_times", [a.p], [_column(sample_times)]),
         "starts": make("starts", [a.parameters], [_column(starts)]),
         "pivots": make("pivots", [a.p], [_column([v for v, _ in assembly.pivots])]),
     }
@@ -143,6 +146,7 @@ def _functions(
         "relations": relations,
         "whens": whens,
         "assignments": assignments,
+        "samples": samples,
         "sparsity": pattern_of(both),
         "init_sparsity": pattern_of(slope),
         "init_labels": labels,
@@ -185,7 +189,7 @@ def _whens(
         number = -1
         if clause.condition is not None:
             number = len(whens)
-            whens.append(WhenClause(label or "when", clause.where))
+            whens.append(WhenClause(label or "when", clause.where, clause.earlier))
             conditions.append(dae.evaluator(_row(dae, clause.condition, item), look))
         for assignment in clause.assignments:
             text = f"{label} ({assignment.where})".lstrip()
@@ -203,6 +207,25 @@ def _whens(
                 assignments.append(Assignment("state", place, number, "", text))
             values.append(value)
     return conditions, values, whens, assignments
+
+
+def _samples(dae: StructuredDAE, look: Any) -> tuple[list[SampledBlock], list[SX], list[SX]]:
+    """Return the sampled blocks, their inputs one after the other, and their periods, then their offsets."""
+    blocks: list[SampledBlock] = []
+    inputs: list[SX] = []
+    for item in dae.flat.samplings:
+        s = item.sampling
+        outputs = tuple(atom.number + item.shift.discrete for atom in s.outputs)
+        label = f"{item.path} {s.label}".strip() or "sampled()"
+        blocks.append(SampledBlock(label, s.where, s.function, len(inputs), len(s.inputs), outputs))
+        inputs += [dae.evaluator(_row(dae, x, item), look) for x in s.inputs]
+    times = [
+        dae.evaluator(_row(dae, x, item), look)
+        for which in ("period", "offset")
+        for item in dae.flat.samplings
+        for x in (getattr(item.sampling, which),)
+    ]
+    return blocks, inputs, times
 
 
 def _initial(

@@ -17,7 +17,7 @@ from arthur_acausal.transform.structured import StructuredDAE
 
 FloatArray = NDArray[np.float64]
 
-LEAVE_AT = 0.2  # margin (1: the best set, 0: singular) at which a set of states is left
+LEAVE_AT = 0.5  # margin (1: the best set, 0: singular) at which a set of states is left
 SWITCH = "another set of states takes over"
 RELATION = Relation("the set of states is far from singular", "", True, False)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,10 +26,23 @@ class Relation:
 
 @dataclass(frozen=True, slots=True)
 class WhenClause:
-    """One ``when``: carried out when its condition becomes true."""
+    """One ``when``: carried out when its condition becomes true, unless one of the ``earlier`` clauses is, too."""
 
     label: str
     where: str
+    earlier: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class SampledBlock:
+    """A function that is called periodically: with ``count`` sample inputs from ``first`` on; it sets z[outputs]."""
+
+    label: str
+    where: str
+    function: Callable[..., Any]
+    first: int
+    count: int
+    outputs: tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)

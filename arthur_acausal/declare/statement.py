@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -40,10 +41,27 @@ class Terminate:
 
 @dataclass(frozen=True, slots=True)
 class When:
-    """Statements that are carried out at the moment when ``condition`` becomes true."""
+    """Statements that are carried out at the moment when ``condition`` becomes true.
 
-    condition: SX
-    statements: tuple[Any, ...]
+    ``branches``: (condition, statements) of the ``when`` and of each ``elsewhen`` behind it.
+    """
+
+    branches: tuple[tuple[SX, tuple[Any, ...]], ...]
+
+    def elsewhen(self, condition: SX, *statements: Any) -> When:
+        """Add statements for ``condition``, unless one of the branches before becomes true at the same moment."""
+        return When((*self.branches, *when(condition, *statements).branches))
+
+
+@dataclass(frozen=True, slots=True)
+class Sampled:
+    """A function that is called at a fixed period; its results are discrete variables, held in between."""
+
+    function: Callable[..., Any]
+    period: SX
+    offset: SX
+    inputs: tuple[SX, ...]
+    outputs: tuple[SX, ...]
 
 
 def time() -> SX:
@@ -151,7 +169,44 @@ def when(condition: SX, *statements: Any) -> When:
         raise DeclarationError(
             "when() without statements", remedy="write what happens: when(condition, reinit(...), d == value)"
         )
-    return When(event_condition(scope, SX(condition)), statements)
+    return When(((event_condition(scope, SX(condition)), statements),))
+
+
+def edge(x: SX) -> SX:
+    """Return whether a discrete (0 or 1) variable has just become true; for conditions of ``when``."""
+    return ca.logic_and(x, ca.logic_not(pre(x)))
+
+
+def sampled(
+    function: Callable[..., Any],
+    *,
+    period: Expression,
+    offset: Expression = 0.0,
+    inputs: Sequence[Expression] = (),
+    outputs: Sequence[SX] = (),
+) -> Sampled:
+    """Call ``function(t, inputs)`` at t = offset, offset + period, ... and hold its results in ``outputs``.
+
+    Parameters
+    ----------
+    function : takes the time [s] and an array of the inputs just before it, in SI; returns one number an output.
+        A CasADi function of (t, inputs) will do. A class with a state of its own gives ``fresh()``, which returns
+        a new one for each run.
+    period, offset : of parameters [s]; the period is positive.
+    outputs : discrete variables, which nothing else changes.
+
+    Functions that are due at the same moment are called in the order of declaration, each with what the earlier
+    ones have set.
+    """
+    scope = current_scope("sampled()")
+    for output in outputs:
+        atom = scope.atom(output)
+        if atom is None or atom.kind != "discrete":
+            raise DeclarationError(
+                f"an output of sampled() is a discrete variable, not {output}",
+                remedy="declare it with discrete(...)",
+            )
+    return Sampled(function, SX(period), SX(offset), tuple(SX(x) for x in inputs), tuple(outputs))
 
 
 def reinit(target: SX, value: Expression) -> Reinit:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -12,7 +12,7 @@ from casadi import SX
 from arthur_acausal.declare.authored import authored, defined_at, place
 from arthur_acausal.declare.model import Component, title_of
 from arthur_acausal.declare.scope import Atom, Scope, using
-from arthur_acausal.declare.statement import Connection, Reinit, Terminate, When
+from arthur_acausal.declare.statement import Connection, Reinit, Sampled, Terminate, When
 from arthur_acausal.errors import DeclarationError
 
 _OVER = object()
@@ -68,6 +68,20 @@ class Clause:
     assignments: tuple[Assignment, ...]
     label: str
     where: str
+    earlier: int = 0  # branches of the same when before this one, which go first
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sampling:
+    """A function that is called periodically; ``outputs`` are discrete variables."""
+
+    function: Callable[..., Any]
+    period: Expression
+    offset: Expression
+    inputs: tuple[Expression, ...]
+    outputs: tuple[Atom, ...]
+    label: str
+    where: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,6 +103,7 @@ class Block:
     connections: list[tuple[Connection, str]] = field(default_factory=list)
     clauses: list[Clause] = field(default_factory=list)
     relations: list[Comparison] = field(default_factory=list)
+    samplings: list[Sampling] = field(default_factory=list)
 
 
 def run_block(component: Component, scope: Scope) -> Block:
@@ -158,9 +173,12 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
     if isinstance(statement, Connection):
         block.connections.append((statement, where))
     elif isinstance(statement, When):
-        assignments = tuple(_assignment(s, where, component, scope) for s in statement.statements)
-        condition = make_expression(statement.condition, where, scope)
-        block.clauses.append(Clause(condition, assignments, label, where))
+        for earlier, (condition, statements) in enumerate(statement.branches):
+            assignments = tuple(_assignment(s, where, component, scope) for s in statements)
+            tested = make_expression(condition, where, scope)
+            block.clauses.append(Clause(tested, assignments, label, where, earlier))
+    elif isinstance(statement, Sampled):
+        block.samplings.append(_sampling(statement, label, where, scope))
     elif _is_equation(statement):
         target = scope.atom(statement.dep(0))
         if target is not None and target.kind == "discrete":
@@ -184,6 +202,14 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
             f"{statement!r} is no equation",
             "yield lhs == rhs, a pair (label, lhs == rhs), connect(...) or when(...)",
         )
+
+
+def _sampling(statement: Sampled, label: str, where: str, scope: Scope) -> Sampling:
+    period, offset, *inputs = (
+        make_expression(x, where, scope) for x in (statement.period, statement.offset, *statement.inputs)
+    )
+    outputs = tuple(atom for x in statement.outputs if (atom := scope.atom(x)) is not None)
+    return Sampling(statement.function, period, offset, tuple(inputs), outputs, label, where)
 
 
 def _assignment(statement: Any, where: str, component: Component, scope: Scope) -> Assignment:

@@ -19,7 +19,14 @@ from arthur_acausal.flatten.connections import Connections, Node, first_variable
 from arthur_acausal.flatten.dimensions import check_block as check_dimensions
 from arthur_acausal.flatten.dimensions import check_values
 from arthur_acausal.flatten.media import unify_media
-from arthur_acausal.flatten.system import FlatClause, FlatEquation, FlatRelation, FlatSystem, Shift
+from arthur_acausal.flatten.system import (
+    FlatClause,
+    FlatEquation,
+    FlatRelation,
+    FlatSampling,
+    FlatSystem,
+    Shift,
+)
 from arthur_acausal.flatten.template import rebased, structure_key
 
 
@@ -66,6 +73,7 @@ class _Work:
     initial: list[FlatEquation] = field(default_factory=list)
     relations: list[FlatRelation] = field(default_factory=list)
     clauses: list[FlatClause] = field(default_factory=list)
+    samplings: list[FlatSampling] = field(default_factory=list)
     blocks: dict[Hashable, Block] = field(default_factory=dict)
 
 
@@ -139,6 +147,9 @@ def _add_leaf(component: Component, work: _Work) -> None:
         if block.connections:
             raise ConnectError("connect() joins parts; this component has none", path=path_of(component))
         _check_block(copy, block, work, scope, [])
+        if block.samplings:  # their functions may be methods of the instance
+            _place(component, run_block(component, work.scope), Shift(), work)
+            return
         work.blocks[key] = block
     shift = Shift(
         binding.first["variable"],
@@ -164,6 +175,7 @@ def _place(component: Component, block: Block, shift: Shift, work: _Work) -> Non
     work.initial.extend(FlatEquation(e, path, shift) for e in block.initial)
     work.relations.extend(FlatRelation(r, path, shift) for r in block.relations)
     work.clauses.extend(FlatClause(c, path, shift) for c in block.clauses)
+    work.samplings.extend(FlatSampling(s, path, shift) for s in block.samplings)
 
 
 def _finish(
@@ -195,6 +207,7 @@ def _finish(
         work.found.aliases,
         work.relations,
         work.clauses,
+        work.samplings,
         inputs,
         same,
         components,

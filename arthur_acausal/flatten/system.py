@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from arthur_acausal.declare.model import Component
 from arthur_acausal.declare.scope import Atom, Declared, Scope
-from arthur_acausal.flatten.block import Clause, Comparison, Equation
+from arthur_acausal.flatten.block import Clause, Comparison, Equation, Sampling
 from arthur_acausal.flatten.connections import Alias
 
 
@@ -79,6 +79,15 @@ class FlatClause:
 
 
 @dataclass(frozen=True, slots=True)
+class FlatSampling:
+    """A periodic call of one component instance."""
+
+    sampling: Sampling
+    path: str
+    shift: Shift
+
+
+@dataclass(frozen=True, slots=True)
 class FlatSystem:
     """All that a model says, in numbers: the input of the transformations.
 
@@ -93,6 +102,7 @@ class FlatSystem:
     aliases: list[Alias]
     relations: list[FlatRelation]
     clauses: list[FlatClause]
+    samplings: list[FlatSampling]
     inputs: list[int]
     parameter_aliases: dict[int, int]
     components: list[Component]

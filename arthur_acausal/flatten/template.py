@@ -44,7 +44,7 @@ def _key(model: Model) -> Hashable | None:
         elif isinstance(value, SX):
             return None  # an expression of this instance's own symbols
         else:
-            names.append((name, value))
+            names.append((name, type(value), value))  # 1 == True, but equations may tell them apart
     return tuple(names)
 
 

@@ -71,15 +71,24 @@ class EventIteration:
         self._nearby = NEARBY * np.random.default_rng(0).uniform(0.5, 1.0, 2 * dae.n + 1)
         self._law = np.zeros(2 * dae.n)
 
-    def handle(self, flagged: Mapping[int, bool], resolution: float, inputs_jump: bool = False) -> Outcome:
+    def handle(
+        self,
+        flagged: Mapping[int, bool],
+        resolution: float,
+        inputs_jump: bool = False,
+        sample: Callable[[], None] | None = None,
+    ) -> Outcome:
         """Handle the event at the evaluator's t, y, y'. `flagged` are relations known to change, and to what.
 
-        `resolution` is the time, s, within which events are one.
+        `resolution` is the time, s, within which events are one. `sample` sets discrete variables from the values
+        just before the event.
         """
         evaluator, outcome = self._evaluator, Outcome(affected=inputs_jump)
         before = evaluator.m > 0.5
         self._law = self._laws()
-        pending, reset = inputs_jump, False
+        if sample is not None:
+            sample()
+        pending, reset = inputs_jump or not np.array_equal(evaluator.z, evaluator.zp), False
         moving: Index = np.zeros(0, dtype=np.intp)
         for number in range(self._options.max_event_iterations):
             doubtful = reset or number > TRUSTED_PASSES
@@ -186,6 +195,9 @@ class EventIteration:
         now = self._evaluator.conditions() > 0.5
         rising = now & ~self._modes.conditions
         self._modes.conditions = now
+        for k, when in enumerate(self._dae.whens):
+            if when.earlier and rising[k]:
+                rising[k] = not rising[k - when.earlier : k].any()
         return rising
 
     def _act(self, rising: BoolArray, outcome: Outcome) -> tuple[bool, bool]:

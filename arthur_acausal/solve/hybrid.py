@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from time import perf_counter
 from typing import Any
 
@@ -20,6 +21,7 @@ from arthur_acausal.solve.inputs import Input, Inputs
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, FloatArray
+from arthur_acausal.solve.sampled import Samples
 from arthur_acausal.solve.schedule import Schedule, affine_relations
 from arthur_acausal.solve.statistics import Statistics
 from arthur_acausal.solve.trajectory import Event, Recorder, Status, Trajectory
@@ -69,6 +71,7 @@ class HybridRun:
         self._schedule = Schedule(evaluator, np.flatnonzero(scheduled))
         self._roots = Roots(dae, evaluator, self._inputs, self._monitor, np.flatnonzero(~scheduled))
         self._iteration = EventIteration(dae, evaluator, self._attributes, self._modes, options, scheduled)
+        self._samples = Samples(dae, evaluator, start_time)
         self._accumulation = Accumulation(stop_time - start_time, options)
         self._recorder = Recorder()
         self._events: list[Event] = []
@@ -115,7 +118,7 @@ class HybridRun:
     def _advance(self) -> None:
         """Integrate over one stretch and handle what ends it."""
         evaluator, t, near = self._evaluator, self._t, self._resolution
-        end = min(self._stop, self._inputs.next_jump(t + near), self._schedule.next())
+        end = min(self._stop, self._inputs.next_jump(t + near), self._schedule.next(), self._samples.next())
         first, last = np.searchsorted(self._grid, [t + near, end - near])
         times = np.concatenate([[t], self._grid[first:last], [end]])
         self._roots.restart(t + near)
@@ -165,7 +168,8 @@ class HybridRun:
         t, near = self._t, self._resolution
         flagged = self._schedule.due(t + near)
         jump = self._inputs.next_jump(t - near) <= t + near
-        self._statistics.time_events += bool(flagged or jump)
+        sampled = self._samples.next() <= t + near
+        self._statistics.time_events += bool(flagged or jump or sampled)
         if stretch.end == "root":
             found = {int(self._roots.index[k]): bool(d > 0) for k, d in enumerate(stretch.directions) if d}
             flagged |= found
@@ -173,7 +177,7 @@ class HybridRun:
             self._accumulation.add(t, self._dae.relations[next(iter(found))].label)
         if jump:
             self._events.append(Event(t, "an input jumps", kind="input"))
-        if flagged or jump:
+        if flagged or jump or sampled:
             self._event(flagged, jump)
         if self._ended is None and self._stop - t <= near:
             self._ended = ("finished", "")
@@ -186,11 +190,13 @@ class HybridRun:
         before = perf_counter()
         t, near = self._t, self._resolution
         self._inputs.begin(t, near)
-        outcome = self._iteration.handle(flagged, near, jump)
+        due = self._samples.next() <= t + near
+        sample = partial(self._samples.act, t + near) if due else None
+        outcome = self._iteration.handle(flagged, near, jump, sample)
         self._schedule.update(t, t + near)
         self._affected = outcome.affected
-        self._stepping |= bool(flagged) and not outcome.affected
-        if flagged or jump or outcome.events:
+        self._stepping |= (bool(flagged) or due) and not outcome.affected
+        if flagged or jump or due or outcome.events:
             self._events += outcome.events
             self._statistics.events += 1
             self._record_point()

@@ -86,6 +86,7 @@ class When:
     condition: Any
     actions: Sequence[tuple[str, Variable | None, Any]]
     where: str = "test.py:2"
+    earlier: int = 0
 
 
 def reinit(x: Variable, value: Any) -> tuple[str, Variable | None, Any]:
@@ -152,6 +153,7 @@ class Handmade:
     relations: Sequence[Relation] = ()
     whens: Sequence[When] = ()
     always: Sequence[tuple[Variable, Any]] = ()
+    samples: Sequence[Any] = ()
     parameters: Mapping[str, tuple[Any, float]] = field(default_factory=dict)
     name: str = "handmade"
 

@@ -1,0 +1,72 @@
+"""Sampled blocks: functions called at fixed periods, their results held between the calls."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from arthur_acausal.errors import ParameterError, SimulationError
+from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray
+
+
+class Samples:
+    """All sampled blocks of a model, and when each is due: offset + k period, never a sum of rounded steps."""
+
+    def __init__(self, dae: DAE, evaluator: Evaluator, start_time: float) -> None:
+        self._blocks, self._evaluator = dae.samples, evaluator
+        count = len(self._blocks)
+        times = evaluator.sample_times().copy() if count else np.zeros(0)
+        self._period, self._offset = times[:count], times[count:]
+        for block, period in zip(self._blocks, self._period.tolist(), strict=True):
+            if not (math.isfinite(period) and period > 0.0):
+                raise ParameterError(
+                    f"{block.label}: the period is {period:g} s, not positive", where=block.where
+                )
+        # a fresh function for each run, where it has a state of its own
+        self._functions = [getattr(b.function, "fresh", lambda f=b.function: f)() for b in self._blocks]
+        late = 1e-9 * self._period
+        self._k = np.maximum(np.ceil((start_time - self._offset - late) / self._period), 0.0)
+
+    def next(self) -> float:
+        """Return the next time at which a block is due [s]; infinity if there is none."""
+        return float(np.min(self._offset + self._k * self._period)) if len(self._blocks) else math.inf
+
+    def act(self, now: float) -> None:
+        """Call what is due up to ``now`` [s], in order; the evaluator holds the values before it."""
+        due = np.flatnonzero(self._offset + self._k * self._period <= now).tolist()
+        for number in due:
+            self._call(number)
+            self._k[number] += 1.0
+
+    def _call(self, number: int) -> None:
+        block, evaluator = self._blocks[number], self._evaluator
+        t = float(evaluator.t[0])
+        inputs = evaluator.sample_inputs()[block.first : block.first + block.count].copy()
+        try:
+            result = _numbers(self._functions[number](t, inputs))
+        except Exception as error:
+            raise SimulationError(
+                f"{block.label} failed at t = {t:.9g} s: {type(error).__name__}: {error}",
+                where=block.where,
+                cause="the function of a sampled block raised",
+            ) from error
+        if result.size != len(block.outputs) or not np.isfinite(result).all():
+            raise SimulationError(
+                f"{block.label} returned {result.tolist()} at t = {t:.9g} s",
+                where=block.where,
+                cause=f"it must return {len(block.outputs)} finite numbers",
+            )
+        evaluator.z[list(block.outputs)] = result
+
+
+def _numbers(result: Any) -> FloatArray:
+    if result is None:
+        return np.zeros(0)
+    parts = result if isinstance(result, list | tuple) else [result]
+    return (
+        np.concatenate([np.asarray(part, dtype=float).reshape(-1) for part in parts])
+        if parts
+        else np.zeros(0)
+    )
