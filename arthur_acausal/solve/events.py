@@ -27,7 +27,9 @@ AFTER = "check what reinit sets, and that the equations have a solution after th
 DIFFERENCE = 1e-7  # forward difference, relative to the time in which a state moves by its own magnitude
 NEARBY = 1e-3  # relative distance of the point where a change of law shows that the event itself hides
 TRUST = 10.0  # a relation that IDA found to change has changed while g is within so many tolerances of zero
-TRUSTED_PASSES = 10  # modes that go round because one of them is held so: from then on the present values decide
+TRUSTED_PASSES = (
+    10  # modes that go round because one of them is held so: from then on the present values decide
+)
 TINY = 1e-300
 
 
@@ -92,7 +94,9 @@ class EventIteration:
         moving: Index = np.zeros(0, dtype=np.intp)
         for number in range(self._options.max_event_iterations):
             doubtful = reset or number > TRUSTED_PASSES
-            modes = self._right_limit(flagged, resolution, np.inf if number == 0 else 0.0 if doubtful else TRUST)
+            modes = self._right_limit(
+                flagged, resolution, np.inf if number == 0 else 0.0 if doubtful else TRUST
+            )
             moving = np.flatnonzero(modes != (evaluator.m > 0.5))
             evaluator.m[:] = modes
             rising = self._rising()

@@ -78,7 +78,9 @@ def newton(
         step = -solve(residual)
         size, before = _size(step, w, scale), full
         full = size
-        rounding = 0.5 * before < size <= ROUNDING * tolerance and not singular  # so near, Newton's steps shrink fast
+        rounding = (
+            0.5 * before < size <= ROUNDING * tolerance and not singular
+        )  # so near, Newton's steps shrink fast
         if size <= tolerance or rounding or not np.isfinite(size):
             w = np.clip(w + step, low, high) if np.isfinite(size) else w
             return Solved(w, "singular" if singular else "", iteration, size, solve)

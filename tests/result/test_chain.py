@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 from scipy.special import ellipj, ellipk
 
-from arthur_acausal import Component, Equations, Real, SolverOptions, Translation, der, parameter, translate, variable
+from arthur_acausal import (
+    Component,
+    Equations,
+    Real,
+    SolverOptions,
+    Translation,
+    der,
+    parameter,
+    translate,
+    variable,
+)
 
 G = 9.81
 
@@ -36,7 +46,7 @@ def pendulum() -> Translation:
 
 
 def angle(t: float, theta_0: float) -> float:
-    """The pendulum's angle [rad] after ``t`` [s] from rest at ``theta_0``: 2 asin(k sn(K + w t, k)), k = sin(theta_0/2)."""
+    """The pendulum's angle [rad] after ``t`` [s] from rest: 2 asin(k sn(K + w t, k)), k = sin(theta_0/2)."""
     k = np.sin(theta_0 / 2)
     sn = ellipj(ellipk(k**2) + np.sqrt(G) * t, k**2)[0]
     return float(2 * np.arcsin(k * sn))

@@ -49,7 +49,10 @@ class Loop(Component):
 
     def equations(self) -> Equations:
         yield der(self.x) == self.u
-        yield "law", sampled(Integrating(), period=self.period, inputs=[self.target - self.x], outputs=[self.u])
+        yield (
+            "law",
+            sampled(Integrating(), period=self.period, inputs=[self.target - self.x], outputs=[self.u]),
+        )
 
 
 def test_a_sampled_controller_follows_its_recurrence_exactly() -> None:
@@ -90,7 +93,9 @@ class Failing(Component):
 
 
 def test_an_error_in_a_sampled_function_names_the_block_and_keeps_the_run() -> None:
-    with pytest.raises(SimulationError, match=r"broken law failed at t = 0\.25 s: ZeroDivisionError") as caught:
+    with pytest.raises(
+        SimulationError, match=r"broken law failed at t = 0\.25 s: ZeroDivisionError"
+    ) as caught:
         translate(Failing()).simulate(1.0)
     assert caught.value.solution.t[-1] == pytest.approx(0.25)
 
@@ -127,7 +132,9 @@ class Branches(Component):
 
     def equations(self) -> Equations:
         yield self.T * der(self.x) == 1.0
-        yield when(self.x > 0.5, self.n == pre(self.n) + 1).elsewhen(self.x > self.low, self.n == pre(self.n) + 10)
+        yield when(self.x > 0.5, self.n == pre(self.n) + 1).elsewhen(
+            self.x > self.low, self.n == pre(self.n) + 10
+        )
 
 
 @pytest.mark.parametrize(("low", "expected"), [(0.4, 11.0), (0.5, 1.0), (0.6, 11.0)])
