@@ -1,4 +1,4 @@
-"""Random expressions, built with their dimension by rules of their own, pass the check of homogeneity; no other does."""
+"""Random expressions, built with a dimension by rules of their own, pass the check of homogeneity with no other one."""
 
 from __future__ import annotations
 
