@@ -98,12 +98,12 @@ def assemble(dae: StructuredDAE, n_starts: int) -> Assembly:
         values[assignment.node] = SX(0.0)
         rest = dae.evaluator(row, look)
         coefficient = assignment.coefficient
-        if isinstance(coefficient, float):
+        if not isinstance(coefficient, SX):
+            assert coefficient is not None
             values[assignment.node] = (
                 -rest if coefficient == 1.0 else rest if coefficient == -1.0 else -rest / coefficient
             )
         else:
-            assert coefficient is not None
             pivot = dae.evaluator(row, look, coefficient)
             assembly.pivots.append((pivot, f"{row.text}: solved for {nodes.name(assignment.node)}"))
             values[assignment.node] = -rest / pivot

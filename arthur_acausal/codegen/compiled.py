@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any
 
 import casadi as ca
@@ -77,7 +76,7 @@ class CompiledDAE:
         """The number of conditions that hold at the start only."""
         return len(self.init_labels)
 
-    @cached_property
+    @property
     def z_start(self) -> FloatArray:
         """Start values of the discrete variables for the default parameters."""
         return self.attributes(self.parameter_vector()).z_start
@@ -143,6 +142,7 @@ class Evaluator:
 
     def __init__(self, dae: CompiledDAE) -> None:
         self._dae = dae
+        self._kernels: dict[str, Kernel] = {}
         size = {
             "t": 1,
             "y": dae.n,
@@ -167,45 +167,53 @@ class Evaluator:
     def _kernel(self, name: str, *further: FloatArray) -> Kernel:
         return Kernel(self._dae.functions[name], [*self._continuous, *further])
 
-    @cached_property
+    def _lazy(self, name: str, *further: FloatArray) -> Kernel:
+        """Return a kernel that not every run needs; made once."""
+        if name not in self._kernels:
+            self._kernels[name] = self._kernel(name, *further)
+        return self._kernels[name]
+
+    @property
     def jacobian_y(self) -> Kernel:
         """dF/dy, (nnz,) in the order of the DAE's sparsity."""
-        return self._kernel("jacobian_y")
+        return self._lazy("jacobian_y")
 
-    @cached_property
+    @property
     def jacobian_yp(self) -> Kernel:
         """dF/dy', (nnz,) in the order of the DAE's sparsity."""
-        return self._kernel("jacobian_yp")
+        return self._lazy("jacobian_yp")
 
-    @cached_property
+    @property
     def conditions(self) -> Kernel:
         """The truth of each when's condition, (n_whens,)."""
-        return self._kernel("conditions", self.zp)
+        return self._lazy("conditions", self.zp)
 
-    @cached_property
+    @property
     def when_values(self) -> Kernel:
         """The right-hand side of each assignment, (n_assignments,)."""
-        return self._kernel("when_values", self.zp)
+        return self._lazy("when_values", self.zp)
 
-    @cached_property
+    @property
     def sample_inputs(self) -> Kernel:
         """The inputs of all sampled blocks, one after the other."""
-        return self._kernel("sample_inputs")
+        return self._lazy("sample_inputs")
 
-    @cached_property
+    @property
     def sample_times(self) -> Kernel:
         """The periods of all sampled blocks [s], then their offsets [s]."""
-        return Kernel(self._dae.functions["sample_times"], [self.p])
+        if "sample_times" not in self._kernels:
+            self._kernels["sample_times"] = Kernel(self._dae.functions["sample_times"], [self.p])
+        return self._kernels["sample_times"]
 
-    @cached_property
+    @property
     def initial(self) -> Kernel:
         """Residuals of the conditions at the start, (n_init,)."""
-        return self._kernel("initial")
+        return self._lazy("initial")
 
-    @cached_property
+    @property
     def initial_jacobian(self) -> Kernel:
         """[dh/dy | dh/dy'] of the conditions at the start, in the order of the DAE's init_sparsity."""
-        return self._kernel("initial_jacobian")
+        return self._lazy("initial_jacobian")
 
 
 def pattern_of(matrix: ca.SX) -> Pattern:

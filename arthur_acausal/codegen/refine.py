@@ -93,9 +93,10 @@ def _steps(dae: CompiledDAE, rows: Rows, value: FloatArray) -> FloatArray:
     matrix = np.zeros((count, n, n))
     matrix[:, dae.sparsity.row, column] = entries
     try:
-        return np.asarray(np.linalg.solve(matrix, value[..., None])[..., 0])
+        return np.asarray(np.linalg.solve(matrix, value[..., None])[..., 0], dtype=np.float64)
     except np.linalg.LinAlgError:
-        return np.stack([np.linalg.lstsq(a, b, rcond=None)[0] for a, b in zip(matrix, value, strict=True)])
+        each = [np.linalg.lstsq(a, b, rcond=None)[0] for a, b in zip(matrix, value, strict=True)]
+        return np.asarray(each, dtype=np.float64)
 
 
 def _entries(dae: CompiledDAE, name: str, arguments: list[FloatArray], count: int) -> FloatArray:
