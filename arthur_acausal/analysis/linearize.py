@@ -19,20 +19,23 @@ from arthur_acausal.codegen.refine import Rows, refine
 from arthur_acausal.errors import StructureError, UsageError
 
 if TYPE_CHECKING:
+    from arthur_acausal.result.chain import Piece
     from arthur_acausal.solve.trajectory import Trajectory
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 SHARE = 0.05  # a state takes part in a mode from this share on
+SINGULAR = 1e-14  # reciprocal condition of the equilibrated matrix
 
 
 @dataclass(frozen=True, slots=True)
 class Mode:
     """One eigenvalue [1/s], or the upper one of a conjugate pair, and the states that take part in it.
 
-    ``frequency`` [Hz] is that of the undamped oscillation, |eigenvalue| / 2 pi; ``damping`` the damping ratio, 1 for
-    a decaying real eigenvalue; ``participation``: shares by state, largest first, sum 1 over all states.
+    ``frequency`` [Hz] is that of the undamped oscillation, |eigenvalue| / 2 pi; ``damping`` the damping ratio: 1
+    for a decaying real eigenvalue, 0 for an integrator. ``participation``: shares by state, largest first, sum 1 over
+    all states, of which those from `SHARE` on are listed.
     """
 
     eigenvalue: complex
@@ -57,14 +60,17 @@ class LinearModel:
 
     def eigenvalues(self) -> ComplexArray:
         """Return the eigenvalues of A [1/s], by descending real part."""
-        values = np.linalg.eigvals(self.A).astype(complex) if len(self.states) else np.zeros(0, dtype=complex)
+        values: ComplexArray = np.zeros(0, dtype=np.complex128)
+        if self.states:
+            values = np.asarray(np.linalg.eigvals(self.A), dtype=np.complex128)
         return values[np.lexsort((values.imag, -values.real))]
 
     def modes(self) -> list[Mode]:
         """Return the modes, slowest first; one for each conjugate pair."""
         if not self.states:
             return []
-        values, right = np.linalg.eig(self.A)
+        found_values, right = np.linalg.eig(self.A)
+        values = np.asarray(found_values, dtype=np.complex128)
         try:
             left = np.linalg.inv(right).T
         except np.linalg.LinAlgError:  # a defective matrix: its eigenvectors do not span
@@ -78,7 +84,7 @@ class LinearModel:
             order = np.argsort(-shares[:, k])
             part = {self.states[i]: float(shares[i, k]) for i in order if shares[i, k] >= SHARE}
             size = float(abs(values[k]))
-            damping = float(-values[k].real / size) if size > 0.0 else 1.0
+            damping = float(-values[k].real / size) if size > 0.0 else 0.0
             found.append(Mode(complex(values[k]), size / (2 * np.pi), damping, part))
         return found
 
@@ -113,13 +119,7 @@ def linearize(
     states = np.flatnonzero(dae.differential)
     other = np.flatnonzero(~dae.differential)
     matrix = np.hstack([fyp[:, states], fy[:, other]])
-    try:
-        solved = -np.linalg.solve(matrix, np.hstack([fy[:, states], fu]))
-    except np.linalg.LinAlgError:
-        raise StructureError(
-            f"the model cannot be linearised at t = {x.t[row]:g} s",
-            cause="its equations do not determine derivatives and algebraic unknowns there (singular Jacobian)",
-        ) from None
+    solved = _solve(matrix, -np.hstack([fy[:, states], fu]), float(x.t[row]))
     n = len(states)
     a_b, z_xu = solved[:n], solved[n:]
     names = [dae.y_paths[k] for k in states]
@@ -135,6 +135,40 @@ def linearize(
         c_d[:, :n],
         c_d[:, n:],
         y[0, states],
+    )
+
+
+def linearize_run(
+    pieces: Sequence[Piece], at: float | None = None, outputs: Sequence[str] | None = None
+) -> LinearModel:
+    """Linearise about a point of a run: in the system whose states were chosen there; see ``linearize``."""
+    if not pieces:
+        raise UsageError(
+            "the solution was read from a file: it has no equations", remedy="simulate the model anew"
+        )
+    chosen = pieces[-1]
+    if at is not None:
+        chosen = next((p for p in reversed(pieces) if p.trajectory.t[0] <= at), pieces[0])
+    return linearize(chosen.dae, chosen.trajectory, at, outputs)
+
+
+def _solve(matrix: FloatArray, right: FloatArray, t: float) -> FloatArray:
+    """Solve with rows and columns scaled. Raises StructureError where the matrix is singular or not finite."""
+    rows = np.abs(matrix).max(axis=1, initial=0.0)
+    rows[rows == 0.0] = 1.0
+    scaled = matrix / rows[:, None]
+    columns = np.abs(scaled).max(axis=0, initial=0.0)
+    columns[columns == 0.0] = 1.0
+    scaled = scaled / columns
+    finite = bool(np.isfinite(scaled).all())
+    if finite and (not matrix.size or np.linalg.cond(scaled, 1) < 1.0 / SINGULAR):
+        return np.asarray(np.linalg.solve(scaled, right / rows[:, None])) / columns[:, None]
+    raise StructureError(
+        f"the model cannot be linearised at t = {t:g} s",
+        cause="its equations do not determine derivatives and algebraic unknowns there (singular Jacobian)"
+        if finite
+        else "its Jacobian is not finite there",
+        remedy="choose another point: a little later, or away from the limit of a law",
     )
 
 

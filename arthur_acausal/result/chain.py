@@ -115,6 +115,11 @@ class PiecewiseValues:
         """Values (nt, len(paths)) in SI."""
         return np.concatenate([part.observe(paths) for part in self._parts])
 
+    @property
+    def pieces(self) -> list[Piece]:
+        """The trajectories of all pieces and their systems."""
+        return [piece for part in self._parts for piece in part.pieces]
+
     def slope(self, state: str) -> FloatArray | None:
         """None: what is a state in one piece may be none in the next."""
         return None

@@ -48,6 +48,11 @@ class ComputedValues:
         y, yp = self._consistent() if self._recovery.needs_refinement(paths) else (x.y, x.yp)
         return self._recovery.observe(paths, x.t, y, yp, x.p, x.u, x.z, x.m)
 
+    @property
+    def pieces(self) -> list[Piece]:
+        """The trajectory and its system."""
+        return [Piece(self._dae, self._trajectory)]
+
     def _consistent(self) -> tuple[FloatArray, FloatArray]:
         """Return y and y', algebraic unknowns and derivatives solved anew from the states; once."""
         if self._refined is None:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from arthur_acausal.result.chain import Piece
     from arthur_acausal.result.energy import Energy
     from arthur_acausal.result.panel import Wanted
 
@@ -199,6 +200,12 @@ class Solution:
     def options(self) -> Any:
         """Options of the solver."""
         return self.run.options
+
+    @property
+    def pieces(self) -> Sequence[Piece]:
+        """The run's trajectories and the compiled systems that they belong to; none where it was read from a file."""
+        found: Sequence[Piece] = getattr(self._values, "pieces", ())
+        return found
 
     @property
     def versions(self) -> Mapping[str, str]:
