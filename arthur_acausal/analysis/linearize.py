@@ -162,7 +162,7 @@ def _solve(matrix: FloatArray, right: FloatArray, t: float) -> FloatArray:
     scaled = scaled / columns
     finite = bool(np.isfinite(scaled).all())
     if finite and (not matrix.size or np.linalg.cond(scaled, 1) < 1.0 / SINGULAR):
-        return np.asarray(np.linalg.solve(scaled, right / rows[:, None])) / columns[:, None]
+        return np.asarray(np.linalg.solve(scaled, right / rows[:, None]) / columns[:, None], dtype=np.float64)
     raise StructureError(
         f"the model cannot be linearised at t = {t:g} s",
         cause="its equations do not determine derivatives and algebraic unknowns there (singular Jacobian)"
