@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -19,6 +19,9 @@ from arthur_acausal.flatten.system import FlatSystem
 from arthur_acausal.transform.structured import StructuredDAE, StructureReport, report, transform
 
 if TYPE_CHECKING:
+    from arthur_acausal.analysis.linearize import LinearModel
+    from arthur_acausal.analysis.sensitivity import Sensitivities
+    from arthur_acausal.analysis.steady import SteadyState
     from arthur_acausal.result.solution import Solution
     from arthur_acausal.result.verify import Verification
     from arthur_acausal.solve.inputs import Input
@@ -89,6 +92,80 @@ class Translation:
             other = transform(self.flat, dummies)
             self._variants[dummies] = generate(other, compile=self.compile, continuation=True)
         return self._variants[dummies]
+
+    def linearize(
+        self,
+        about: Solution | SteadyState | None = None,
+        *,
+        at: float | None = None,
+        outputs: Sequence[str] | None = None,
+    ) -> LinearModel:
+        """Linearise about a point of a solution: that nearest to the time ``at`` [s], by default its end.
+
+        Without a solution: about the initial point with the default parameters and inputs. ``outputs``: paths of any
+        variables, by default all states.
+        """
+        from arthur_acausal.analysis.linearize import linearize, linearize_run
+        from arthur_acausal.result.solution import Solution
+        from arthur_acausal.solve.simulate import initial_point
+
+        if isinstance(about, Solution):
+            return linearize_run(about.pieces, at, outputs)
+        point = initial_point(self.dae, stop_time=1.0) if about is None else about.point
+        return linearize(self.dae, point, at, outputs)
+
+    def steady_state(
+        self,
+        *,
+        time: float = 0.0,
+        parameters: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, Input] | None = None,
+        start: Mapping[str, Any] | None = None,
+    ) -> SteadyState:
+        """Return the state of rest that is reached from the initial point, inputs held as they are at ``time`` [s].
+
+        States that have no value of rest, the angle of a turning shaft, are named in its ``free`` and ``drifts``.
+        Raises InitializationError, naming equations, where no state of rest is found.
+        """
+        from arthur_acausal.analysis.steady import steady_state
+
+        return steady_state(self.dae, time=time, parameters=parameters, inputs=inputs, start=start)
+
+    def sensitivities(
+        self,
+        solution: Solution,
+        outputs: Sequence[str],
+        parameters: Sequence[str],
+        *,
+        inputs: Mapping[str, Input] | None = None,
+    ) -> Sensitivities:
+        """Return the derivatives of outputs by parameters along a solution, over its times, also across its events.
+
+        ``inputs``: those that the solution was computed with; constants need not be given again.
+        """
+        from arthur_acausal.analysis.sensitivity import sensitivities
+
+        run = solution.run
+        held = {path: value for path, value in run.inputs.items() if isinstance(value, float)}
+        for path in run.inputs:
+            if path not in held and path not in (inputs or {}):
+                raise UsageError(
+                    f"the solution does not keep the input {path}", remedy="give inputs= as for the simulation"
+                )
+        return sensitivities(
+            self._plain,
+            solution.pieces,
+            outputs,
+            parameters,
+            given=run.parameters,
+            start=run.start,
+            inputs={**held, **(inputs or {})},
+        )
+
+    @cached_property
+    def _plain(self) -> CompiledDAE:
+        """The system as CasADi expressions, which can be differentiated further."""
+        return generate(self.structured, compile="never")
 
     def verify(self, solution: Solution) -> Verification:
         """Evaluate every raw equation of the model, before any elimination, on a solution of it."""

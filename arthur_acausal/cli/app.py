@@ -48,6 +48,13 @@ Set = Annotated[
         "--set", metavar="PATH=VALUE", help="Set a parameter: SI, or with a unit (150bar). Repeatable."
     ),
 ]
+Input = Annotated[
+    list[str] | None,
+    typer.Option("--input", metavar="PATH=VALUE", help="An input: a value or file.csv:column. Repeatable."),
+]
+Start = Annotated[
+    list[str] | None, typer.Option("--start", metavar="PATH=VALUE", help="A start value. Repeatable.")
+]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Debug = Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")]
 
@@ -99,16 +106,8 @@ def simulate(
         typer.Option("-t", "--stop-time", metavar="TIME", help="s, or with a unit (200ms); default 1 s."),
     ] = None,
     settings: Set = None,
-    inputs: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--input", metavar="PATH=VALUE", help="An input: a value or file.csv:column. Repeatable."
-        ),
-    ] = None,
-    starts: Annotated[
-        list[str] | None,
-        typer.Option("--start", metavar="PATH=VALUE", help="A start value. Repeatable."),
-    ] = None,
+    inputs: Input = None,
+    starts: Start = None,
     rtol: Annotated[
         float | None, typer.Option(metavar="TOL", help="Relative tolerance of a step; default 1e-6.")
     ] = None,
@@ -150,6 +149,47 @@ def simulate(
             output=output,
             picture=picture,
             verify=verify,
+            as_json=as_json,
+        )
+    )
+    typer.echo(text)
+
+
+@app.command()
+@reported
+def linearize(
+    model: Model,
+    at: Annotated[
+        str | None, typer.Option("--at", metavar="TIME", help="Simulate up to here; default: the start.")
+    ] = None,
+    steady: Annotated[bool, typer.Option("--steady", help="About the state of rest.")] = False,
+    settings: Set = None,
+    inputs: Input = None,
+    starts: Start = None,
+    outputs: Annotated[
+        list[str] | None,
+        typer.Option("--output", metavar="PATH", help="An output; default: all states. Repeatable."),
+    ] = None,
+    bode: Annotated[
+        Path | None, typer.Option("--bode", metavar="FILE.png", help="Draw gain and phase (png, pdf, svg).")
+    ] = None,
+    as_json: Json = False,
+    debug: Debug = False,
+) -> None:
+    """Linearise a model: matrices, eigenvalues, Bode plots."""
+    from arthur_acausal.cli.linearize import Request
+    from arthur_acausal.cli.linearize import linearize as carry_out
+
+    text = carry_out(
+        Request(
+            model=model,
+            at=at,
+            steady=steady,
+            settings=settings or (),
+            inputs=inputs or (),
+            starts=starts or (),
+            outputs=outputs or (),
+            bode=bode,
             as_json=as_json,
         )
     )
