@@ -92,7 +92,7 @@ def assemble(dae: StructuredDAE, n_starts: int) -> Assembly:
         if node not in in_y:
             values[node] = symbol
     assembly = Assembly(arguments, elements(arguments.parameters), place, y_nodes, values)
-    look = lookup(assembly, before=False)
+    look = lookup(dae, assembly, before=False)
     for assignment in causal.assignments:
         row = dae.reduced.rows[assignment.row]
         values[assignment.node] = SX(0.0)
@@ -132,7 +132,7 @@ def elements(vector: SX) -> list[SX]:
     return ca.vertsplit(vector) if vector.numel() else []
 
 
-def lookup(assembly: Assembly, *, before: bool) -> Callable[[Ref], SX]:
+def lookup(dae: StructuredDAE, assembly: Assembly, *, before: bool) -> Callable[[Ref], SX]:
     """Return what gives the value behind a ref; ``before``: pre(z) is its own argument, else it equals z."""
     arguments = assembly.arguments
     p, u, m = assembly.parameters, elements(arguments.u), elements(arguments.m)
@@ -144,6 +144,8 @@ def lookup(assembly: Assembly, *, before: bool) -> Callable[[Ref], SX]:
     def look(ref: Ref) -> SX:
         match ref.kind:
             case "node":
+                if ref.number >= len(values):
+                    add_derivatives(dae, assembly)
                 return values[ref.number]
             case "parameter":
                 return p[place[ref.number]]
@@ -160,6 +162,29 @@ def lookup(assembly: Assembly, *, before: bool) -> Callable[[Ref], SX]:
         return zero
 
     return look
+
+
+def add_derivatives(dae: StructuredDAE, assembly: Assembly) -> None:
+    """Give a value to derivatives that no equation of the dynamics holds: the chain rule over states and time.
+
+    They stand in initial equations, relations or ``when`` clauses only.
+
+    Raises StructureError where a variable is no function of states and time alone.
+    """
+    a, nodes, values = assembly.arguments, dae.nodes, assembly.node_values
+    n_states = len(dae.causal.states)
+    before = {derivative: node for node, derivative in enumerate(nodes.derivative)}
+    for node in range(len(values), len(nodes.all)):
+        value = values[before[node]]
+        loose = ca.vertcat(a.yp, a.y[n_states:], a.u)
+        if loose.numel() and ca.depends_on(value, loose):
+            raise StructureError(
+                f"{nodes.name(node)} stands in no equation of the dynamics, and is not known",
+                cause="the variable depends on algebraic unknowns or inputs, not on states and time alone",
+                remedy="write it with variables of the model's own equations",
+            )
+        states, rates = a.y[:n_states], a.yp[:n_states]
+        values.append(ca.jtimes(value, states, rates) + ca.jacobian(value, a.t))
 
 
 def variable_values(dae: StructuredDAE, assembly: Assembly) -> dict[int, SX]:

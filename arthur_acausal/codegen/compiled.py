@@ -11,6 +11,7 @@ import numpy as np
 
 from arthur_acausal.codegen.kernel import Kernel
 from arthur_acausal.codegen.parameters import ParameterTable
+from arthur_acausal.codegen.rates import RootsWithRates
 from arthur_acausal.codegen.recovery import Recovery
 from arthur_acausal.codegen.switching import RootsWithMargin
 from arthur_acausal.codegen.tables import (
@@ -63,6 +64,7 @@ class CompiledDAE:
     functions: dict[str, ca.Function] = field(repr=False)
     recovery: Recovery = field(repr=False)
     samples: list[SampledBlock]
+    relations_of_rates: bool
     sets: StateSets | None = field(repr=False)
     dummies: frozenset[int] = field(repr=False)
 
@@ -160,6 +162,8 @@ class Evaluator:
         self.residual = self._kernel("residual")
         self.jacobian = self._kernel("jacobian", self.cj)
         self.roots: Callable[[], FloatArray] = self._kernel("roots")
+        if dae.relations_of_rates:
+            self.roots = RootsWithRates(dae, self, self.roots)
         if dae.sets is not None:
             entries = self._kernel("state_sets")
             self.roots = RootsWithMargin(self.roots, entries, dae.sets, dae.dummies, len(dae.relations))

@@ -96,7 +96,7 @@ def _functions(
 ) -> tuple[dict[str, ca.Function], dict[str, Any]]:
     a = assembly.arguments
     arguments = a.continuous()
-    look, before = lookup(assembly, before=False), lookup(assembly, before=True)
+    look, before = lookup(dae, assembly, before=False), lookup(dae, assembly, before=True)
     residual = _shared(_column(assembly.residual))
     dy, dyp = ca.jacobian(residual, a.y), ca.jacobian(residual, a.yp)
     cj = SX.sym("cj")
@@ -147,6 +147,7 @@ def _functions(
         "whens": whens,
         "assignments": assignments,
         "samples": samples,
+        "relations_of_rates": bool(roots) and bool(ca.depends_on(_column(roots), a.yp)),
         "sparsity": pattern_of(both),
         "init_sparsity": pattern_of(slope),
         "init_labels": labels,
@@ -231,7 +232,7 @@ def _samples(dae: StructuredDAE, look: Any) -> tuple[list[SampledBlock], list[SX
 def _initial(
     dae: StructuredDAE, assembly: Assembly, slots: list[StartSlot], equations: list[FlatEquation]
 ) -> tuple[SX, list[str]]:
-    look = lookup(assembly, before=False)
+    look = lookup(dae, assembly, before=False)
     values: list[SX] = []
     labels: list[str] = []
     for equation in equations:

@@ -74,12 +74,14 @@ def unify_media(
 
 def _master(group: list[tuple[Component, str, Record]], source: dict[int, Record]) -> Record:
     explicit = []
+    inherited = {id(r) for c, name, r in group if c._binding is not None and name not in c._binding.explicit}
     for component, name, record in group:
         assert component._binding is not None
         if name in component._binding.explicit:
             while id(record) in source:
                 record = source[id(record)]
-            explicit.append((component, name, record))
+            if id(record) not in inherited:  # a part's, given by an owner that inherits it itself
+                explicit.append((component, name, record))
     if not explicit:
         return group[0][2]
     first = explicit[0]

@@ -137,6 +137,10 @@ class EventIteration:
         evaluator.t[0], evaluator.y[:], evaluator.yp[:] = t, y, yp
         return np.concatenate([here, near])
 
+    def make_consistent(self) -> None:
+        """Solve for algebraic variables and derivatives where no event has: after interpolation they are only near."""
+        self._solve(Outcome())
+
     def rates(self, refresh: Callable[[float], None], duration: float) -> FloatArray | None:
         """Second derivatives of the states at the present consistent values, (n,); zero for algebraic variables.
 

@@ -147,6 +147,8 @@ class HybridRun:
             first_step = None
         else:
             self._engine.forget()
+            if self._starts and not self._affected:
+                self._iteration.make_consistent()
             first_step = self._first_step(stop - float(times[0]))
             self._starts += 1
         y, yp = self._evaluator.y.copy(), self._evaluator.yp.copy()

@@ -20,6 +20,7 @@ from arthur_acausal import (
     translate,
     variable,
 )
+from arthur_acausal.components.hydraulic import Fluid, HydraulicPort, Orifice, PressureSource, Volume
 from arthur_acausal.flatten.flatten import flatten
 
 
@@ -163,3 +164,32 @@ def test_media_pass_through_the_connectors_of_a_hierarchical_component() -> None
             yield connect(self.tank.port, self.box.port)
 
     assert translate(Plant()).simulate(1.0).final("box.pipe.seen") == 333.0
+
+
+class Vessel(Component):
+    """Gives its own fluid to its part, and inherits that fluid itself."""
+
+    fluid: Fluid = Fluid()
+    port_a = HydraulicPort()
+
+    def build(self) -> None:
+        self.inside = Volume(V=1e-3, fluid=self.fluid)
+
+    def equations(self) -> Equations:
+        yield connect(self.port_a, self.inside.port)
+
+
+class Filling(Component):
+    source: PressureSource = PressureSource(p=1e5, fluid=Fluid(rho=870.0))
+    vessel: Vessel = Vessel()
+    orifice: Orifice = Orifice(area=1e-6)
+
+    def equations(self) -> Equations:
+        yield connect(self.source.port, self.orifice.port_a)
+        yield connect(self.orifice.port_b, self.vessel.port_a)
+
+
+def test_a_part_given_an_inherited_fluid_inherits_it_too() -> None:
+    solution = translate(Filling()).simulate(0.01)
+    assert solution.final("vessel.inside.fluid.rho") == 870.0
+    assert solution.final("vessel.fluid.rho") == 870.0
