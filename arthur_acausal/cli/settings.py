@@ -40,16 +40,25 @@ def read_settings(model: type[Any], texts: Iterable[str]) -> Settings:
     """Read the --set options for a model class.
 
     A name without a dot that is a structural parameter of the class gets that parameter's type; all others
-    are parameters: a number in SI, or a number with its unit ("150bar").
+    are parameters: a number in SI, or a number with its unit ("150bar"). Those that the class requires are given
+    where the model is made, like the structural ones.
     """
     structural: dict[str, Any] = {}
     parameters: dict[str, float | str] = {}
     for path, text in assignments(texts, "--set").items():
         if path in structural_parameters(model):
             structural[path] = convert(model, path, text)
+        elif path in required_parameters(model):
+            structural[path] = quantity(text, f"--set {path}={text}")
         else:
             parameters[path] = quantity(text, f"--set {path}={text}")
     return Settings(structural, parameters)
+
+
+def required_parameters(model: type[Any]) -> set[str]:
+    """Parameters of a model class itself that have no default."""
+    quantities = model._declarations.quantities
+    return {name for name, q in quantities.items() if q.kind == "parameter" and q.default is None}
 
 
 def structural_parameters(model: type[Any]) -> Mapping[str, Any]:

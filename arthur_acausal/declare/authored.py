@@ -25,11 +25,13 @@ SYMBOL_AS_TRUTH = "truth value"  # what CasADi's message for bool(symbol) contai
 
 
 def calling_line() -> str:
-    """Return file:line of the author's code that is being run."""
+    """Return file:line of the author's code that is being run; empty where the command line makes a model."""
     frame: FrameType | None = sys._getframe(1)
     while frame is not None and frame.f_code.co_filename.startswith(_BETWEEN):
         frame = frame.f_back
-    return place(frame.f_code.co_filename, frame.f_lineno) if frame is not None else ""
+    if frame is None or frame.f_code.co_filename.startswith(str(_PACKAGE / "cli")):
+        return ""
+    return place(frame.f_code.co_filename, frame.f_lineno)
 
 
 def place(filename: str, line: int) -> str:

@@ -55,6 +55,15 @@ def test_structural_parameters_are_inherited() -> None:
     assert read_settings(Special, ["n=3", "law=smooth"]).structural == {"n": 3, "law": "smooth"}
 
 
+def test_required_parameters_of_the_model_itself_are_given_where_it_is_made() -> None:
+    class Demanding(Rig):
+        bore: Real = parameter("m^2")
+
+    settings = read_settings(Demanding, ["bore=2cm^2", "n=3"])
+    assert settings.structural == {"bore": "2.0 cm^2", "n": 3}
+    assert settings.parameters == {}
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
