@@ -150,7 +150,8 @@ class Translation:
         for path in run.inputs:
             if path not in held and path not in (inputs or {}):
                 raise UsageError(
-                    f"the solution does not keep the input {path}", remedy="give inputs= as for the simulation"
+                    f"the solution does not keep the input {path}",
+                    remedy="give inputs= as for the simulation",
                 )
         return sensitivities(
             self._plain,
