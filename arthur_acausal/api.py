@@ -163,6 +163,26 @@ class Translation:
             inputs={**held, **(inputs or {})},
         )
 
+    def to_modelica(
+        self, *, parameters: Mapping[str, Any] | None = None, stop_time: float | None = None
+    ) -> str:
+        """Return the text of one flat Modelica model, for other tools; ``parameters`` replace the model's own values.
+
+        Raises UsageError for what Modelica cannot say.
+        """
+        from arthur_acausal.exchange.modelica import Given, to_modelica
+        from arthur_acausal.solve.conditions import choose
+
+        dae = self.dae
+        p = dae.parameter_vector(parameters)
+        evaluator, attributes = dae.evaluator(), dae.attributes(p)
+        evaluator.p[:], evaluator.y[:], evaluator.z[:] = p, attributes.start, attributes.z_start
+        assumed = choose(dae, evaluator, attributes).assumed.tolist()
+        fixed = {dae.y_paths[j]: float(attributes.start[j]) for j in assumed}
+        infos = dae.parameters
+        values = {infos.infos[k].path: float(p[k]) for k in map(infos.find, parameters or {})}
+        return to_modelica(self.flat, Given(fixed, values, stop_time))
+
     @cached_property
     def _plain(self) -> CompiledDAE:
         """The system as CasADi expressions, which can be differentiated further."""

@@ -198,6 +198,23 @@ def linearize(
 
 @app.command()
 @reported
+def export(
+    model: Model,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE.mo", help="Default: standard output.")
+    ] = None,
+    form: Annotated[str, typer.Option("--format", metavar="FORMAT", help="modelica.")] = "modelica",
+    settings: Set = None,
+    debug: Debug = False,
+) -> None:
+    """Write a model for other tools: one flat Modelica model."""
+    from arthur_acausal.cli.export import export as carry_out
+
+    typer.echo(carry_out(model, form, settings or [], output))
+
+
+@app.command()
+@reported
 def plot(
     file: Annotated[Path, typer.Argument(metavar="FILE.nc", help="A result of `arthur simulate -o`.")],
     variables: Annotated[

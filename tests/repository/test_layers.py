@@ -27,6 +27,7 @@ LAYERS = (
     "solve",
     "result",
     "analysis",
+    "exchange",
     "api",
     "components",
     "models",

@@ -1,0 +1,1 @@
+"""Exchange with other tools: a translated model as a flat Modelica model."""
