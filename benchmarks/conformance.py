@@ -1,0 +1,195 @@
+"""Reference cases of others, solved by IDA: ``python -m benchmarks.conformance --cases DIR [--json]``.
+
+Each folder of DIR holds a case.json, which says what is required; it is read here, never chosen. Problems given as
+text are read by a whitelist; examples of the Modelica Standard Library are the models of
+``arthur_acausal.models.conformance``, built from the library by ``connect``. A case without a model has failed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arthur_acausal import ArthurError, SimulationError, SolverOptions, translate
+from arthur_acausal.models.conformance.case import Case
+from benchmarks.chains import cascaded_first_order, harmonic_oscillator, many_events
+from benchmarks.text_problem import TextError, problem
+
+FloatArray = NDArray[np.float64]
+
+TIGHT = SolverOptions(rtol=1e-11, intervals=10, max_steps=10_000_000)
+VALUE_TUBE, TIME_TUBE = 1e-3, 2e-3  # shares of a signal's range and of the time span
+LIBRARY = ("blocks", "electrical", "mechanics", "rotational", "thermal", "translational")
+NOT_BUILT = "not built"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """One case: ``error`` in the measure of its case.json; None where there is none."""
+
+    name: str
+    error: float | None
+    required: float
+    passed: bool
+    why: str
+
+    def as_object(self) -> dict[str, Any]:
+        """Return what --json prints."""
+        found = asdict(self)
+        found["pass"] = found.pop("passed")
+        return found
+
+
+def end_values(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
+    """Solve a problem given as text; the error of its end values as its measure says."""
+    solution = translate(problem(case), check_units=False).simulate(float(case["t_end"]), options=TIGHT)
+    reference: dict[str, float] = case["reference"]["values"]
+    measure: str = case["required"]["measure"]
+    names = list(reference)
+    if "seven positions" in measure:
+        names = names[:7]
+    elif "positions and velocities" in measure:
+        names = [n for n in names if not n.startswith("lam")]
+    largest = max(abs(v) for v in reference.values())
+    floor = 1e-3 * largest if "1e-3 of the largest" in measure else 1e-3 if "1e-3)" in measure else 0.0
+    errors = {n: abs(solution.final(n) - reference[n]) / max(abs(reference[n]), floor) for n in names}
+    worst = max(errors, key=errors.__getitem__)
+    return errors[worst], f"worst: {worst}"
+
+
+def tube(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
+    """Simulate an example of the Modelica Standard Library; the largest share of samples out of the tube."""
+    model = library_cases()[case["name"]]
+    options = model.options
+    solution = translate(model.model()).simulate(model.stop_time, options=options)
+    times, columns = read_reference(folder / case["reference"]["file"])
+    shares = {}
+    for signal, values in columns.items():
+        if signal not in model.signals:
+            return 1.0, f"no variable for the signal {signal}"
+        own = np.asarray(solution[model.signals[signal]])
+        shares[signal] = out_of_tube(times, values, np.asarray(solution.t), own)
+    worst = max(shares, key=shares.__getitem__)
+    return shares[worst], f"worst: {worst}" if shares[worst] else model.note
+
+
+def out_of_tube(times: FloatArray, values: FloatArray, t: FloatArray, own: FloatArray) -> float:
+    """Return the share of the reference's samples that our curve, within the time tube, does not come near."""
+    span = TIME_TUBE * (times[-1] - times[0])
+    room = VALUE_TUBE * max(float(np.ptp(values)), np.finfo(float).tiny)
+    near = max(room, 1e-12 * float(np.max(np.abs(values), initial=0.0)))
+    first, last = np.searchsorted(t, times - span), np.searchsorted(t, times + span, side="right")
+    outside = 0
+    for k, value in enumerate(values.tolist()):
+        ends = np.interp([times[k] - span, times[k], times[k] + span], t, own)
+        part = np.concatenate([ends, own[first[k] : last[k]]])
+        outside += not (part.min() - near <= value <= part.max() + near)
+    return outside / len(values)
+
+
+def read_reference(file: Path) -> tuple[FloatArray, dict[str, FloatArray]]:
+    """Return the times and the columns of a reference's CSV."""
+    with file.open(newline="", encoding="utf-8") as lines:
+        rows = csv.reader(lines)
+        header = next(rows)
+        table = np.array([[float(x) for x in row] for row in rows])
+    return table[:, 0], {name: table[:, k] for k, name in enumerate(header) if k}
+
+
+def library_cases() -> dict[str, Case]:
+    """Return all cases that are built from the component library."""
+    found: dict[str, Case] = {}
+    for name in LIBRARY:
+        found |= import_module(f"arthur_acausal.models.conformance.msl_{name}").CASES
+    return found
+
+
+def bounces(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
+    """Let the ball bounce; the largest error of its impact times [s]."""
+    from arthur_acausal.models.examples.bouncing_ball import BouncingBall
+
+    given = case["parameters"]
+    try:
+        solution = translate(BouncingBall()).simulate(
+            1.05 * case["reference"]["zeno_time"],
+            options=SolverOptions(rtol=1e-9),
+            parameters={"e": given["e"], "g": given["g"], "h_0": given["h0"]},
+        )
+        ended = "the end was not found"
+    except SimulationError as error:
+        solution, ended = error.solution, error.message.split(";")[0]
+    times = [e.time for e in solution.events if e.kind == "state"]
+    reference = case["reference"]["bounce_times"]
+    return max(abs(a - b) for a, b in zip(times, reference, strict=False)), ended
+
+
+SOLVERS: dict[str, Callable[[Mapping[str, Any], Path], tuple[float, str]]] = {
+    "ev_bouncing_ball": bounces,
+    "scal_CascadedFirstOrder": cascaded_first_order,
+    "scal_HarmonicOscillator": harmonic_oscillator,
+    "scal_ManyEvents": many_events,
+}
+
+
+def solver_of(case: Mapping[str, Any]) -> Callable[[Mapping[str, Any], Path], tuple[float, str]] | None:
+    """Return what solves a case; None if no model was built."""
+    if case["name"] in SOLVERS:
+        return SOLVERS[case["name"]]
+    if str(case.get("format", "")).startswith("eqjson-1"):
+        return end_values
+    return tube if case["name"] in library_cases() else None
+
+
+def run(folder: Path) -> Outcome:
+    """Solve the case in a folder."""
+    case = json.loads((folder / "case.json").read_text(encoding="utf-8"))
+    required = float(case["required"]["value"])
+    solve = solver_of(case)
+    if solve is None:
+        return Outcome(case["name"], None, required, False, NOT_BUILT)
+    try:
+        error, why = solve(case, folder)
+    except (ArthurError, TextError) as failure:
+        return Outcome(case["name"], None, required, False, str(failure).partition("\n")[0])
+    return Outcome(case["name"], error, required, bool(error <= required), why)
+
+
+def main() -> None:
+    """Run all cases and print a table, or one JSON object."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.conformance", description=__doc__)
+    parser.add_argument("--cases", type=Path, required=True, help="folder with one folder a case")
+    parser.add_argument("--only", default="", help="run the cases whose name contains this")
+    parser.add_argument("--json", action="store_true", help="print one JSON object and nothing else")
+    given = parser.parse_args()
+    folders = sorted(f.parent for f in given.cases.glob("*/case.json") if given.only in f.parent.name)
+    if not folders:
+        sys.exit(f"there is no case in {given.cases}")
+    outcomes = []
+    for folder in folders:
+        outcome = run(folder)
+        outcomes.append(outcome)
+        if not given.json:
+            error = "-" if outcome.error is None else f"{outcome.error:.2e}"
+            mark = "pass" if outcome.passed else "FAIL"
+            print(f"{outcome.name:46} {error:>9} {outcome.required:>8.0e}  {mark}  {outcome.why}", flush=True)
+    passed = sum(o.passed for o in outcomes)
+    if given.json:
+        print(
+            json.dumps({"cases": [o.as_object() for o in outcomes], "passed": passed, "total": len(outcomes)})
+        )
+    else:
+        print(f"{passed} of {len(outcomes)} pass")
+
+
+if __name__ == "__main__":
+    main()
