@@ -38,7 +38,7 @@ class Translation:
     dae: CompiledDAE = field(repr=False)
     seconds: Mapping[str, float] = field(repr=False)
     compile: str = field(default="auto", repr=False)
-    _variants: dict[frozenset[int], CompiledDAE] = field(default_factory=dict, repr=False)
+    _variants: dict[tuple[frozenset[int], bool], CompiledDAE] = field(default_factory=dict, repr=False)
 
     @cached_property
     def report(self) -> StructureReport:
@@ -86,12 +86,13 @@ class Translation:
             variant=self._variant,
         )
 
-    def _variant(self, dummies: frozenset[int]) -> CompiledDAE:
-        """Return the system compiled for another set of dummy derivatives, to continue a run; made once."""
-        if dummies not in self._variants:
+    def _variant(self, dummies: frozenset[int], continuation: bool) -> CompiledDAE:
+        """Return the system compiled for another set of dummy derivatives, to start or continue a run; made once."""
+        key = (dummies, continuation)
+        if key not in self._variants:
             other = transform(self.flat, dummies)
-            self._variants[dummies] = generate(other, compile=self.compile, continuation=True)
-        return self._variants[dummies]
+            self._variants[key] = generate(other, compile=self.compile, continuation=continuation)
+        return self._variants[key]
 
     def linearize(
         self,

@@ -27,7 +27,7 @@ from benchmarks.text_problem import TextError, problem
 
 FloatArray = NDArray[np.float64]
 
-TIGHT = SolverOptions(rtol=1e-11, intervals=10, max_steps=10_000_000)
+TIGHT = SolverOptions(rtol=1e-11, intervals=10, max_steps=1_000_000)
 VALUE_TUBE, TIME_TUBE = 1e-3, 2e-3  # shares of a signal's range and of the time span
 LIBRARY = ("blocks", "electrical", "mechanics", "rotational", "thermal", "translational")
 NOT_BUILT = "not built"

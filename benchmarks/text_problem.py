@@ -46,8 +46,8 @@ def value_of(text: str | float, names: Mapping[str, Any]) -> Any:
 
 def _walk(node: ast.expr, names: Mapping[str, Any]) -> Any:
     match node:
-        case ast.Constant(value=int() | float()):
-            return float(node.value)
+        case ast.Constant(value=int() | float() as number):
+            return float(number)
         case ast.Name(id=name) if name in names:
             return names[name]
         case ast.BinOp(left=left, op=op, right=right) if type(op) in OPERATORS:

@@ -17,8 +17,8 @@ from arthur_acausal.solve.simulate import initial_point, simulate
 from arthur_acausal.solve.statistics import Statistics
 from arthur_acausal.solve.trajectory import Event, Trajectory
 
-Variant = Callable[[frozenset[int]], CompiledDAE]
-"""From a set of dummy derivatives to the system compiled for it, as one that continues a run."""
+Variant = Callable[[frozenset[int], bool], CompiledDAE]
+"""From a set of dummy derivatives to the system compiled for it; True: as one that continues a run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,11 +41,14 @@ def simulate_pieces(
         return
     grid = arguments["options"].grid(start_time, arguments["stop_time"])
     start = arguments.pop("start")
+    sets, guessed = dae.sets, _entries_of_guess(dae, arguments.get("parameters"), start)
+    if sets.margin(guessed, dae.dummies) <= LEAVE_AT:
+        dae = variant(sets.choose(guessed), False)
     point = Piece(dae, initial_point(dae, start_time=start_time, start=start, **arguments))
     current, given = dae, start
     entries = _entries(point)
-    if dae.sets.margin(entries, dae.dummies) <= LEAVE_AT:
-        current = variant(dae.sets.choose(entries))
+    if sets.margin(entries, dae.dummies) <= LEAVE_AT:
+        current = variant(sets.choose(entries), True)
         given = _values_at_end(point, current)
     time = start_time
     while True:
@@ -56,9 +59,20 @@ def simulate_pieces(
             return
         assert current.sets is not None
         chosen = current.sets.choose(_entries(pieces[-1]))
-        current = variant(chosen)
+        current = variant(chosen, True)
         given = _values_at_end(pieces[-1], current)
         time = float(done.t[-1])
+
+
+def _entries_of_guess(
+    dae: CompiledDAE, parameters: Mapping[str, Any] | None, start: Mapping[str, Any] | None
+) -> FloatArray:
+    """Return the entries of the sets' Jacobian at the start values, before they are made consistent."""
+    p = dae.parameter_vector(parameters, start)
+    evaluator = dae.evaluator()
+    guess = dae.attributes(p)
+    row = (np.zeros(1), guess.start, np.zeros(dae.n), p, evaluator.u, guess.z_start, evaluator.m)
+    return np.asarray(dae.functions["state_sets"](*row), dtype=float).reshape(-1)
 
 
 def _last(piece: Piece) -> Rows:
