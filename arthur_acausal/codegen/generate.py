@@ -14,20 +14,18 @@ from arthur_acausal.codegen.assemble import (
     assemble,
     elements,
     lookup,
-    reinit_target,
 )
 from arthur_acausal.codegen.compiled import CompiledDAE, as_bools, pattern_of
+from arthur_acausal.codegen.event_kernels import placed_row, samples_of, time_only, whens_of
 from arthur_acausal.codegen.kernel import compile_functions
-from arthur_acausal.codegen.parameters import ParameterInfo, ParameterTable
 from arthur_acausal.codegen.recovery import Recovery, Source
 from arthur_acausal.codegen.starts import attribute_arrays, collect_starts
 from arthur_acausal.codegen.switching import RELATION, add_switching, continuation_starts
-from arthur_acausal.codegen.tables import Assignment, Relation, SampledBlock, StartEntry, WhenClause
+from arthur_acausal.codegen.tables import Relation
+from arthur_acausal.codegen.values import parameter_table, start_entries, start_value
 from arthur_acausal.declare.scope import Declared
 from arthur_acausal.errors import ParameterError
 from arthur_acausal.flatten.system import FlatEquation
-from arthur_acausal.graph import strongly_connected
-from arthur_acausal.transform.rows import Row
 from arthur_acausal.transform.structured import StructuredDAE
 
 SHARED_UP_TO = 1000  # rows
@@ -44,8 +42,8 @@ def generate(dae: StructuredDAE, *, compile: str = "auto", continuation: bool = 
     n_discrete = len(dae.flat.scope.discrete)
     assembly = assemble(dae, len(slots) + n_discrete)
     y_place = {node: k for k, node in enumerate(assembly.y_nodes)}
-    table = _parameter_table(dae, assembly)
-    entries, aliases = _start_entries(dae, slots, y_place, len(table.infos))
+    table = parameter_table(dae, assembly)
+    entries, aliases = start_entries(dae, slots, y_place, len(table.infos))
     functions, tables = _functions(dae, assembly, slots, y_place, continuation)
     hot = compile_functions([functions[name] for name in COMPILED], mode=compile)
     functions |= dict(zip(COMPILED, hot, strict=True))
@@ -102,16 +100,15 @@ def _functions(
     cj = SX.sym("cj")
     both = _shared(dy + cj * dyp)
     pattern = both.sparsity()
-    roots = [dae.evaluator(_row(dae, r.relation.g, r), look) for r in dae.flat.relations]
-    conditions, values, whens, assignments = events = _whens(dae, before, y_place)
+    roots = [dae.evaluator(placed_row(dae, r.relation.g, r), look) for r in dae.flat.relations]
+    conditions, values, whens, assignments = events = whens_of(dae, before, y_place)
     entries = add_switching(dae, assembly, look, events)
     initial, labels = _initial(dae, assembly, slots, [] if continuation else dae.flat.initial)
     slope = ca.horzcat(ca.jacobian(initial, a.y), ca.jacobian(initial, a.yp))
-    samples, sample_inputs, sample_times = _samples(dae, look)
-    starts = [_start_value(dae, assembly, s.value, s.path) for s in slots]
+    samples, sample_inputs, sample_times = samples_of(dae, look)
+    starts = [start_value(dae, assembly, s.value, s.path) for s in slots]
     starts += [
-        _start_value(dae, assembly, d.start.value if d.start else 0.0, d.path)
-        for d in dae.flat.scope.discrete
+        start_value(dae, assembly, d.start.value if d.start else 0.0, d.path) for d in dae.flat.scope.discrete
     ]
     make = ca.Function
     functions = {
@@ -135,7 +132,7 @@ def _functions(
             f"{r.path}: {r.relation.text}".lstrip(": "),
             r.relation.where,
             r.relation.inclusive,
-            _time_only(g, a),
+            time_only(g, a),
         )
         for r, g in zip(dae.flat.relations, roots, strict=True)
     ]
@@ -167,68 +164,6 @@ def _column(values: list[SX]) -> SX:
     return ca.vertcat(*values) if values else SX(0, 1)
 
 
-def _row(dae: StructuredDAE, expression: Any, placed: Any) -> Row:
-    return dae.nodes.expression(expression, placed.shift, placed.path)
-
-
-def _time_only(g: SX, a: Any) -> bool:
-    """Tell whether g depends on time, affinely, and on nothing that changes between events."""
-    if any(ca.depends_on(g, x) for x in (a.y, a.yp, a.u) if x.numel()):
-        return False
-    return bool(ca.depends_on(g, a.t)) and not ca.depends_on(ca.jacobian(g, a.t), a.t)
-
-
-def _whens(
-    dae: StructuredDAE, look: Any, y_place: dict[int, int]
-) -> tuple[list[SX], list[SX], list[WhenClause], list[Assignment]]:
-    conditions: list[SX] = []
-    values: list[SX] = []
-    whens: list[WhenClause] = []
-    assignments: list[Assignment] = []
-    for item in dae.flat.clauses:
-        clause, label = item.clause, f"{item.path} {item.clause.label}".strip()
-        number = -1
-        if clause.condition is not None:
-            number = len(whens)
-            whens.append(WhenClause(label or "when", clause.where, clause.earlier))
-            conditions.append(dae.evaluator(_row(dae, clause.condition, item), look))
-        for assignment in clause.assignments:
-            text = f"{label} ({assignment.where})".lstrip()
-            value = dae.evaluator(_row(dae, assignment.value, item), look)
-            target = assignment.target
-            if target is None:
-                assignments.append(Assignment("terminate", -1, number, assignment.message, text))
-            elif target.kind == "discrete":
-                assignments.append(
-                    Assignment("discrete", target.number + item.shift.discrete, number, "", text)
-                )
-            else:
-                place, sign = reinit_target(dae, target.number + item.shift.variable, y_place, text)
-                value = sign * value
-                assignments.append(Assignment("state", place, number, "", text))
-            values.append(value)
-    return conditions, values, whens, assignments
-
-
-def _samples(dae: StructuredDAE, look: Any) -> tuple[list[SampledBlock], list[SX], list[SX]]:
-    """Return the sampled blocks, their inputs one after the other, and their periods, then their offsets."""
-    blocks: list[SampledBlock] = []
-    inputs: list[SX] = []
-    for item in dae.flat.samplings:
-        s = item.sampling
-        outputs = tuple(atom.number + item.shift.discrete for atom in s.outputs)
-        label = f"{item.path} {s.label}".strip() or "sampled()"
-        blocks.append(SampledBlock(label, s.where, s.function, len(inputs), len(s.inputs), outputs))
-        inputs += [dae.evaluator(_row(dae, x, item), look) for x in s.inputs]
-    times = [
-        dae.evaluator(_row(dae, x, item), look)
-        for which in ("period", "offset")
-        for item in dae.flat.samplings
-        for x in (getattr(item.sampling, which),)
-    ]
-    return blocks, inputs, times
-
-
 def _initial(
     dae: StructuredDAE, assembly: Assembly, slots: list[StartSlot], equations: list[FlatEquation]
 ) -> tuple[SX, list[str]]:
@@ -245,110 +180,6 @@ def _initial(
             values.append(slot.sign * assembly.node_values[slot.node] - starts[k])
             labels.append(f"fixed start of {slot.path}")
     return _column(values), labels
-
-
-def _start_value(dae: StructuredDAE, assembly: Assembly, value: Any, path: str) -> SX:
-    """Return a start value as an expression of p; parameters in it are looked up."""
-    if value is None:
-        return SX.nan()
-    return SX(value) if not isinstance(value, SX) else parameter_expression(dae, assembly, value, path)
-
-
-def parameter_expression(dae: StructuredDAE, assembly: Assembly, value: SX, path: str) -> SX:
-    """Return an expression of the model's parameter symbols as one of the vector p."""
-    symbols = ca.symvar(value)
-    if not symbols:
-        return value
-    p = assembly.parameters
-    replaced = []
-    for symbol in symbols:
-        atom = dae.flat.scope.atom(symbol)
-        if atom is None or atom.kind != "parameter":
-            raise ParameterError(
-                f"{value} contains {symbol}, which is no parameter of this model",
-                path=path,
-                remedy="compute it from parameters only, or declare a variable and an equation for it",
-            )
-        replaced.append(p[assembly.parameter_place[dae.flat.parameter(atom.number)]])
-    result: SX = ca.substitute(value, ca.vertcat(*symbols), ca.vertcat(*replaced))
-    return result
-
-
-def _start_entries(
-    dae: StructuredDAE, slots: list[StartSlot], y_place: dict[int, int], first: int
-) -> tuple[list[StartEntry], dict[str, tuple[int, int]]]:
-    variables = dae.flat.variables
-    entries = [
-        StartEntry(
-            s.path,
-            y_place.get(s.node, -1),
-            s.sign,
-            s.fixed,
-            variables[dae.nodes.all[s.node].variable].quantity.unit,
-            first + k,
-        )
-        for k, s in enumerate(slots)
-    ]
-    by_node: dict[int, int] = {}
-    for k, slot in enumerate(slots):
-        by_node.setdefault(slot.node, k)
-    aliases: dict[str, tuple[int, int]] = {}
-    for i, declared in enumerate(variables):
-        ref = dae.nodes.of_variable(i)
-        if ref.kind == "node" and ref.number in by_node:
-            number = by_node[ref.number]
-            aliases[declared.path] = (number, ref.sign * slots[number].sign)
-    for k, slot in enumerate(slots):
-        aliases.setdefault(slot.path, (k, 1))
-    for k, discrete in enumerate(dae.flat.scope.discrete):
-        aliases[discrete.path] = (len(slots) + k, 1)
-        entries.append(StartEntry(discrete.path, k, 0, True, discrete.quantity.unit, first + len(slots) + k))
-    return entries, aliases
-
-
-def _parameter_table(dae: StructuredDAE, assembly: Assembly) -> ParameterTable:
-    declared, same, place = dae.flat.scope.parameter, dae.flat.parameter_aliases, assembly.parameter_place
-    infos = []
-    dependent: list[tuple[int, SX]] = []
-    for i in place:
-        d = declared[i]
-        symbolic = isinstance(d.value, SX) and not d.value.is_constant()
-        if symbolic:
-            dependent.append((place[i], parameter_expression(dae, assembly, d.value, d.path)))
-        q = d.quantity
-        value = 0.0 if symbolic else float(d.value)
-        infos.append(ParameterInfo(d.path, q.unit, value, symbolic, q.min, q.max, q.description, q.display))
-    alias = {declared[i].path: declared[dae.flat.parameter(i)].path for i in same}
-    number = {info.path: k for k, info in enumerate(infos)}
-    return ParameterTable(infos, alias, _dependent_function(assembly, dependent, infos), number)
-
-
-def _dependent_function(
-    assembly: Assembly, dependent: list[tuple[int, SX]], infos: list[ParameterInfo]
-) -> ca.Function | None:
-    """Return (values, given) -> p, dependent parameters in an order in which each is known when it is needed."""
-    if not dependent:
-        return None
-    whole = assembly.parameters
-    at = {s.element_hash(): k for k, s in enumerate(whole)}
-    order = {k: j for j, (k, _) in enumerate(dependent)}
-    needs = [[order[i] for s in ca.symvar(e) if (i := at[s.element_hash()]) in order] for _, e in dependent]
-    values, given = SX.sym("values", len(infos)), SX.sym("given", len(infos))
-    result = elements(values)
-    chosen = elements(given)
-    for component in strongly_connected(needs):
-        if len(component) > 1 or component[0] in needs[component[0]]:
-            names = ", ".join(infos[dependent[j][0]].path for j in component)
-            raise ParameterError(
-                f"parameters that depend on each other: {names}", remedy="give one of them a value"
-            )
-        k, expression = dependent[component[0]]
-        symbols = ca.symvar(expression)
-        own = ca.substitute(
-            expression, ca.vertcat(*symbols), ca.vertcat(*[result[at[s.element_hash()]] for s in symbols])
-        )
-        result[k] = ca.if_else(chosen[k], result[k], own)
-    return ca.Function("parameters", [values, given], [ca.vertcat(*result)])
 
 
 def _recovery(dae: StructuredDAE, assembly: Assembly, y_place: dict[int, int]) -> Recovery:
