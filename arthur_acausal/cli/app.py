@@ -71,14 +71,23 @@ def list_models(debug: Debug = False) -> None:
 
 @app.command()
 @reported
-def info(model: Model, settings: Set = None, debug: Debug = False) -> None:
+def info(
+    model: Model,
+    settings: Set = None,
+    diagram: Annotated[
+        Path | None,
+        typer.Option("--diagram", metavar="FILE.svg", help="Draw parts and connections (svg, png, pdf)."),
+    ] = None,
+    incidence: Annotated[
+        Path | None,
+        typer.Option("--incidence", metavar="FILE.png", help="Draw the ordered incidence matrix."),
+    ] = None,
+    debug: Debug = False,
+) -> None:
     """Describe a model: what it is, its parts, parameters and inputs."""
-    from arthur_acausal.api import translate
-    from arthur_acausal.cli.describe import as_text
-    from arthur_acausal.cli.locate import build_model
+    from arthur_acausal.cli.info import describe
 
-    built = build_model(model, settings or [])
-    typer.echo(as_text(translate(built.model, name=built.name, compile="never"), built.parameters))
+    typer.echo(describe(model, settings or [], diagram, incidence))
 
 
 @app.command()

@@ -29,3 +29,13 @@ def test_to_standard_output(arthur: Arthur) -> None:
 def test_an_unknown_format(arthur: Arthur) -> None:
     result = arthur("export", "examples.jack", "--format", "modelca")
     assert result.exit_code == 1 and "did you mean modelica?" in result.stderr
+
+
+def test_pictures_of_a_model(arthur: Arthur, tmp_path: Path) -> None:
+    diagram, incidence = tmp_path / "jack.svg", tmp_path / "jack.png"
+    result = arthur("info", "examples.jack", "--diagram", str(diagram), "--incidence", str(incidence))
+    assert result.exit_code == 0, result.stderr
+    assert result.stdout == (
+        f"wrote {diagram}: 5 boxes, 4 lines\nwrote {incidence}: 11 equations in 11 blocks\n"
+    )
+    assert diagram.read_text().rstrip().endswith("</svg>") and incidence.stat().st_size > 5_000
