@@ -1,8 +1,8 @@
 """Every fault of the corpus ends with exactly one clear error.
 
-A file in ``faults`` holds a broken model or call: ``run()`` does what is wrong, ``ERROR`` is the class of the error,
-``EXPECT`` lists patterns that its text must match, and a line that ends in ``# culprit`` is the line that must be
-named.
+Every other file of this folder holds a broken model or call: ``run()`` does what is wrong, ``ERROR`` is the class of
+the error, ``EXPECT`` lists patterns that its text must match, and a line that ends in ``# culprit`` is the line that
+must be named.
 """
 
 from __future__ import annotations
@@ -18,13 +18,14 @@ import pytest
 import arthur_acausal
 from arthur_acausal import ArthurError
 
-FAULTS = sorted((Path(__file__).parent / "faults").glob("*.py"))
+FOLDER = Path(__file__).parent
+FAULTS = sorted(set(FOLDER.glob("*.py")) - {FOLDER / "__init__.py", Path(__file__)})
 CULPRIT = "# culprit"
 
 
 def load(file: Path) -> ModuleType:
     """Import a fault by its file."""
-    name = f"tests.errors.faults.{file.stem}"
+    name = f"tests.faults.{file.stem}"
     spec = importlib.util.spec_from_file_location(name, file)
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -69,7 +70,7 @@ def test_the_corpus_is_large_and_of_every_kind() -> None:
 
 
 def test_an_error_at_simulation_keeps_what_was_computed() -> None:
-    error = fail(load(Path(__file__).parent / "faults" / "not_finite_root.py"))
+    error = fail(load(FOLDER / "not_finite_root.py"))
     solution = error.solution  # type: ignore[attr-defined]
     assert 0.999 < solution.t[-1] <= 1.0
     # the closed form up to there: x = 1 - t, w = 1 + 2/3 (1 - (1 - t)^1.5)
