@@ -14,6 +14,7 @@ from arthur_acausal.components import (
     electrical,
     hydraulic,
     planar,
+    robotics,
     rotational,
     thermal,
     translational,
@@ -75,7 +76,16 @@ OPTIONS = [
 def library() -> list[type[Component]]:
     """All component classes that can be used as they are."""
     found: list[type[Component]] = []
-    modules: list[ModuleType] = [blocks, electrical, hydraulic, planar, rotational, thermal, translational]
+    modules: list[ModuleType] = [
+        blocks,
+        electrical,
+        hydraulic,
+        planar,
+        robotics,
+        rotational,
+        thermal,
+        translational,
+    ]
     for module in modules:
         members = [getattr(module, name) for name in module.__all__]
         found += [m for m in members if inspect.isclass(m) and issubclass(m, Component)]
