@@ -189,6 +189,12 @@ class Translation:
         """The system as CasADi expressions, which can be differentiated further."""
         return generate(self.structured, compile="never")
 
+    def to_bytes(self) -> bytes:
+        """Return the compiled system for other processes of the same user, see `arthur_acausal.codegen.portable`."""
+        from arthur_acausal.codegen.portable import to_bytes
+
+        return to_bytes(self.dae, self._plain)
+
     def verify(self, solution: Solution) -> Verification:
         """Evaluate every raw equation of the model, before any elimination, on a solution of it."""
         from arthur_acausal.result.verify import verify

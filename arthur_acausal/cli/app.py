@@ -94,9 +94,9 @@ def info(
 @reported
 def check(model: Model, settings: Set = None, as_json: Json = False, debug: Debug = False) -> None:
     """Check a model's structure and say how its equations are solved."""
-    from arthur_acausal.cli.locate import build_model
     from arthur_acausal.cli.structure import as_object, as_text, only_structural
     from arthur_acausal.flatten.flatten import flatten
+    from arthur_acausal.request.locate import build_model
     from arthur_acausal.transform.structured import report, transform
 
     with quiet(as_json):

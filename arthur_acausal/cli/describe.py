@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from arthur_acausal.cli.alike import alike
-from arthur_acausal.cli.settings import annotation, structural_parameters
 from arthur_acausal.cli.table import WIDTH, count, number, table
+from arthur_acausal.request.settings import annotation, structural_parameters
 from arthur_acausal.result.display import display_unit, pretty_unit
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from arthur_acausal.cli.locate import build_model
 from arthur_acausal.errors import UsageError, nearest
+from arthur_acausal.request.locate import build_model
 
 FORMATS = ("modelica",)
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from arthur_acausal.cli.describe import as_text
-from arthur_acausal.cli.locate import build_model
+from arthur_acausal.request.locate import build_model
 
 
 def describe(model: str, settings: Sequence[str], diagram: Path | None, incidence: Path | None) -> str:

@@ -12,12 +12,12 @@ import numpy as np
 
 from arthur_acausal.cli.alike import names
 from arthur_acausal.cli.failure import quiet
-from arthur_acausal.cli.locate import build_model
-from arthur_acausal.cli.settings import assignments, quantity, read_inputs
 from arthur_acausal.cli.simulate import Request as SimulationRequest
 from arthur_acausal.cli.simulate import run, seconds
 from arthur_acausal.cli.table import count, number, table
 from arthur_acausal.errors import UsageError
+from arthur_acausal.request.locate import build_model
+from arthur_acausal.request.settings import assignments, quantity, read_inputs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

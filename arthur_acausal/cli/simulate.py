@@ -12,9 +12,9 @@ import typer
 
 from arthur_acausal.cli import outcome, progress
 from arthur_acausal.cli.failure import note, quiet
-from arthur_acausal.cli.locate import build_model
-from arthur_acausal.cli.settings import assignments, quantity, read_inputs
 from arthur_acausal.errors import ArthurError, SimulationError, UsageError
+from arthur_acausal.request.locate import build_model
+from arthur_acausal.request.settings import assignments, quantity, read_inputs
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

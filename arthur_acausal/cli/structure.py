@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from arthur_acausal.cli.alike import names
-from arthur_acausal.cli.settings import structural_parameters
 from arthur_acausal.cli.table import count, table, wrap
 from arthur_acausal.errors import UsageError, nearest
+from arthur_acausal.request.settings import structural_parameters
 
 if TYPE_CHECKING:
-    from arthur_acausal.cli.locate import Built
+    from arthur_acausal.request.locate import Built
     from arthur_acausal.transform.structured import StructureReport
 
 LISTED = 24  # names of a long list that are shown; --json has all

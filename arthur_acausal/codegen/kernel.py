@@ -118,7 +118,16 @@ class Kernel:
 
 
 class _Compiled(ca.Function):
-    """A function of a library made here; it fails for absent arrays only, which a kernel never passes."""
+    """A function of a ``library`` made here; it fails for absent arrays only, which a kernel never passes."""
+
+    library: Path
+
+
+def load_library(name: str, library: Path) -> ca.Function:
+    """Return the function of this name out of a library that this module has made."""
+    function = _Compiled(ca.external(name, str(library)))
+    function.library = library
+    return function
 
 
 def compile_functions(
@@ -207,9 +216,7 @@ def _load_all(
         with ThreadPoolExecutor(len(units)) as pool:
             paths = list(pool.map(library, keys, units))
     return {
-        f.name(): _Compiled(ca.external(f.name(), str(path)))
-        for unit, path in zip(units, paths, strict=True)
-        for f in unit
+        f.name(): load_library(f.name(), path) for unit, path in zip(units, paths, strict=True) for f in unit
     }
 
 

@@ -31,6 +31,8 @@ LAYERS = (
     "api",
     "components",
     "models",
+    "request",
+    "sweep",
     "cli",
 )
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
-from arthur_acausal.cli.settings import read_settings
 from arthur_acausal.errors import ArthurError, UsageError, nearest
+from arthur_acausal.request.settings import read_settings
 
 FORMS = "MODEL is a short name (`arthur list` shows them), package.module:Class or file.py:Class"
 

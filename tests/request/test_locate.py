@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from arthur_acausal.cli.locate import find_model, short_names
 from arthur_acausal.errors import UsageError
+from arthur_acausal.request.locate import find_model, short_names
 
 TANK = '''
 from neighbour import AREA

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from arthur_acausal import Component, Real, Table, parameter
-from arthur_acausal.cli.settings import quantity, read_inputs, read_settings
 from arthur_acausal.errors import ArthurError, UsageError
+from arthur_acausal.request.settings import quantity, read_inputs, read_settings
 from arthur_acausal.units import to_si
 
 
