@@ -32,7 +32,6 @@ LAYERS = (
     "components",
     "models",
     "request",
-    "sweep",
     "cli",
 )
 
