@@ -16,6 +16,7 @@ import types
 import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -91,11 +92,15 @@ def from_bytes(data: bytes, cache: Cache | None = None, trusted: tuple[str, ...]
         for digest, names in index["libraries"].items():
             content = archive.read(f"libraries/{digest}")
             path = (cache or default_cache()).path_of_library(
-                make_key("portable", digest), lambda target, c=content: target.write_bytes(c)
+                make_key("portable", digest), partial(_write, content)
             )
             for name in names:
                 dae.functions[name] = load_library(name, path)
     return dae
+
+
+def _write(content: bytes, path: Path) -> None:
+    path.write_bytes(content)
 
 
 class _Writer:
