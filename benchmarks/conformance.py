@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from arthur_acausal import ArthurError, SimulationError, SolverOptions, translate
 from arthur_acausal.models.conformance.case import Case
 from benchmarks.chains import cascaded_first_order, harmonic_oscillator, many_events
+from benchmarks.hydraulics import SOLVERS as HYDRAULIC
 from benchmarks.text_problem import TextError, problem
 
 FloatArray = NDArray[np.float64]
@@ -147,6 +148,9 @@ def solver_of(case: Mapping[str, Any]) -> Callable[[Mapping[str, Any], Path], tu
         return SOLVERS[case["name"]]
     if str(case.get("format", "")).startswith("eqjson-1"):
         return end_values
+    for beginning, solve in HYDRAULIC.items():
+        if case["name"].startswith(beginning):
+            return solve
     return tube if case["name"] in library_cases() else None
 
 

@@ -34,6 +34,7 @@ from arthur_acausal.components.hydraulic.sources import (
 from arthur_acausal.components.hydraulic.tank import Tank
 from arthur_acausal.components.hydraulic.two_port import TwoPort
 from arthur_acausal.components.hydraulic.volume import Volume
+from arthur_acausal.components.hydraulic.wave_line import WaveLine
 
 __all__ = [
     "GPM",
@@ -70,6 +71,7 @@ __all__ = [
     "TwoPort",
     "VariableOrifice",
     "Volume",
+    "WaveLine",
     "consistent_displacement",
     "gear_size",
     "pump_scaling",
