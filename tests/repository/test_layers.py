@@ -30,6 +30,7 @@ LAYERS = (
     "exchange",
     "api",
     "components",
+    "mujoco",
     "models",
     "request",
     "cli",
@@ -173,7 +174,8 @@ def test_graph_algorithms_see_plain_integers() -> None:
     ("folder", "packages"),
     [
         ("components", ("arthur_acausal.components",)),
-        ("models", ("arthur_acausal.components", "arthur_acausal.models")),
+        ("arthur_acausal/mujoco", ("arthur_acausal.components", "arthur_acausal.mujoco")),
+        ("models", ("arthur_acausal.components", "arthur_acausal.models", "arthur_acausal.mujoco")),
     ],
 )
 def test_the_library_uses_public_names_only(folder: str, packages: tuple[str, ...]) -> None:
