@@ -21,6 +21,7 @@ from benchmarks.ladder import exact_voltage
 from benchmarks.measure import fresh_json
 from benchmarks.powertrain_byhand import flat, trot
 from benchmarks.race import Idas, error, states_on
+from benchmarks.rig import Rig
 
 KEYS = {
     "translate_cold_s",
@@ -43,6 +44,35 @@ def test_scale_prints_its_keys_and_meets_the_exact_solution() -> None:
         assert {"n", "equations", "translate_s", "simulate_s", "peak_mb"} <= row.keys()
         assert row["equations"] == 12 * row["n"] + 8
         assert row["error_V"] < 1e-5 and row["peak_mb"] > 10
+    assert figures["growth_exponent"] is None
+    if figures["rumoca"] is None:
+        assert "rumoca" in figures["rumoca_why"]
+    else:  # another compiler, from our own export: the same ladder to the same solution
+        assert [row["equations"] for row in figures["rumoca"]] == [44, 368]
+        assert all(row["error_V"] < 1e-5 for row in figures["rumoca"])
+        assert figures["hyd12"]["difference"] < 3e-4
+    assert figures["hyd12"]["states"] == 73
+    assert {"translate_s", "simulate_s", "rumoca_translate_s", "rumoca_simulate_s"} <= figures["hyd12"].keys()
+
+
+def test_growth_is_the_exponent_of_a_power_law() -> None:
+    assert scale.growth({n: 3e-5 * n**1.1 for n in (100, 1000, 10000)}) == pytest.approx(1.1)
+    assert scale.growth({100: 1.0, 1000: 2.0}) is None
+
+
+def test_the_rig_works_within_its_strokes_and_pressures() -> None:
+    solution = translate(Rig(n=2)).simulate(1.0, tolerance=1e-7)
+    relief = solution["relief.port_a.q"][solution.t > 0.05]
+    assert relief.min() > 0.0  # the pump always delivers more than the legs take
+    for k in range(2):
+        assert np.abs(solution[f"cylinders[{k}].y"]).max() < 0.033  # a stop stands at 0.035
+        assert min(solution[f"cylinders[{k}].p_{side}"].min() for side in "AB") > 1e5
+        # The spool's steady answer to a sine, from its transfer function omega^2/(s^2 + 2 zeta omega s + omega^2).
+        omega, s = 2 * math.pi * 100.0, 2j * math.pi * (2.0 + 0.2 * k)
+        answer = 0.08 * omega**2 / (s**2 + 2 * 0.7 * omega * s + omega**2)
+        late = solution.t > 0.1
+        turning = np.exp(s * solution.t[late] + 1j * math.pi * k)
+        assert solution[f"valves[{k}].x"][late] == pytest.approx((answer * turning).imag, abs=1e-5)
 
 
 def test_scale_refuses_what_is_no_list_of_sizes() -> None:
