@@ -1,0 +1,122 @@
+"""The quadruped's hydraulic supply: battery, drive, motor, pump, manifold, accumulator, relief valve, filter, tank."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Literal
+
+from arthur_acausal import Component, Equations, Real, connect, der, parameter, real_input, start
+from arthur_acausal.components.choice import check_choice
+from arthur_acausal.components.hydraulic import (
+    GPM,
+    Accumulator,
+    BatteryDrive,
+    BrushlessMotor,
+    Filter,
+    Fluid,
+    GasReservoir,
+    GearPump,
+    HydraulicPort,
+    PressureSensor,
+    ReliefValve,
+    Volume,
+    pump_scaling,
+)
+from arthur_acausal.components.rotational import SpeedSensor
+from arthur_acausal.models.arthur.pump_control import ConstantSpeed, FlowFeedForward, PressureControl
+
+PumpLaw = Literal["constant speed", "pressure", "feed-forward"]
+
+
+class PowerUnit(Component):
+    """Makes the pressure at ``supply`` from a battery; ``tank`` is the return, a gas-loaded reservoir.
+
+    Parts and laws are those of the powertrain (report, sections 5 and 6). The accumulator is one with the
+    manifold, before the filter. It starts in balance: speed, pressure and the controller's integral do not change, the
+    reservoir has ``p_tank``. Its piston's seal takes 0.1 bar at 1 cm/s (``b_tank``); with the 10 N s/m of Table 11 it
+    would ring at 4.2 kHz.
+
+    Structural parameters: ``law`` of the pump's control, see ConstantSpeed, PressureControl and FlowFeedForward;
+    ``accumulator``: False leaves it out.
+    """
+
+    law: PumpLaw = "feed-forward"
+    accumulator: bool = True
+    supply = HydraulicPort()
+    tank = HydraulicPort()
+    fluid: Fluid = Fluid()
+    q_command: Real = real_input("m^3/s", default=0.0, nominal=1e-4, description="flow that is asked for")
+    Q_req: Real = parameter("m^3/s", default=1.25 * GPM, min=0.0, display="gpm", description="pump sizing")
+    N_0: Real = parameter("rad/s", default=5000 * 2 * pi / 60, min=0.0, display="rpm", description="assumed")
+    eta_v: Real = parameter("1", default=0.85, min=0.0, max=1.0, description="Table 6")
+    rho_gear: Real = parameter("kg/m^3", default=7750.0, min=0.0, description="of the pump's gears: steel")
+    p_relief: Real = parameter("Pa", default=140e5, min=0.0, display="bar", description="cracking pressure")
+    P_des: Real = parameter("Pa", default=135e5, min=0.0, display="bar", description="pressure to keep")
+    V_gas: Real = parameter("m^3", default=10e-6, min=0.0, description="accumulator: gas at precharge")
+    p_pre: Real = parameter("Pa", default=84e5, min=0.0, display="bar", description="accumulator: precharge")
+    V_manifold: Real = parameter("m^3", default=4.83e-6, min=0.0, description="Table 9")
+    b_tank: Real = parameter(
+        "N*s/m", default=1e3, min=0.0, description="damping of the reservoir's piston; assumed"
+    )
+    p_tank: Real = parameter("Pa", default=3e5, min=0.0, display="bar", description="reservoir at the start")
+
+    def build(self) -> None:
+        check_choice(self, "law", PumpLaw)
+        size = pump_scaling(self.Q_req, self.N_0, eta_v=self.eta_v, rho_gear=self.rho_gear)
+        self.drive = BatteryDrive()
+        w = self.N_0 if self.law == "constant speed" else 0.2 * self.N_0  # standing takes no more than leaks
+        self.motor = BrushlessMotor(phi=start(0.0, fixed=True), w=start(w), I=start(30.0))
+        self.pump = GearPump(D=size.D, J=size.J)
+        self.manifold = self._manifold()
+        self.relief = ReliefValve(p_c=self.p_relief)
+        self.filter = Filter(p_s=start(self.P_des))
+        self.reservoir = GasReservoir(
+            b=self.b_tank, v=start(0.0, fixed=True), p=start(self.p_tank, fixed=True)
+        )
+        self.control = self._control()
+        self.pressure, self.speed = PressureSensor(), SpeedSensor()
+
+    def _manifold(self) -> Volume | Accumulator:
+        p = start(self.P_des)
+        if not self.accumulator:
+            return Volume(fluid=self.fluid, V=self.V_manifold, p=p)
+        return Accumulator(fluid=self.fluid, V_0=self.V_gas, p_pre=self.p_pre, V_dead=self.V_manifold, p=p)
+
+    def _control(self) -> ConstantSpeed | PressureControl:
+        motor, c_L = self.motor, self.pump.c_L
+        K_e, R_p = motor.K_e, motor.R_LL * c_L / motor.K_T
+        if self.law == "constant speed":
+            return ConstantSpeed(K_e=K_e, R_p=R_p, w_0=self.N_0)
+        kind = PressureControl if self.law == "pressure" else FlowFeedForward
+        C = self.V_manifold / self.fluid.beta
+        if isinstance(self.manifold, Accumulator):
+            exponent = self.manifold.n
+            gas = self.V_gas * (self.p_pre / self.P_des) ** (1 / exponent)
+            C = C + gas / (exponent * self.P_des)
+        return kind(K_e=K_e, R_p=R_p, P_des=self.P_des, c_L=c_L, C=C)
+
+    def equations(self) -> Equations:
+        tank, control = self.reservoir.port, self.control
+        yield connect(self.motor.flange, self.pump.flange)
+        yield connect(self.motor.flange, self.speed.flange)
+        yield connect(tank, self.pump.port_a)
+        yield connect(self.pump.port_b, self.manifold.port)
+        yield connect(self.manifold.port, self.relief.port_a)
+        yield connect(self.relief.port_b, tank)
+        yield connect(self.manifold.port, self.filter.port_a)
+        yield connect(self.manifold.port, self.pressure.port)
+        yield connect(self.filter.port_b, self.supply)
+        yield connect(tank, self.tank)
+        yield connect(self.speed.w, control.w)
+        yield connect(self.pressure.p, control.p)
+        yield connect(self.q_command, control.q_command)
+        yield connect(control.V, self.drive.V_command)
+        yield connect(self.drive.V, self.motor.V)
+        yield connect(self.motor.P_el, self.drive.P_el)
+
+    def initial_equations(self) -> Equations:
+        yield der(self.motor.w) == 0
+        yield der(self.manifold.p) == 0
+        yield der(self.reservoir.v) == 0
+        if isinstance(self.control, PressureControl):
+            yield der(self.control.x) == 0
