@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from arthur_acausal import Component, Equations, Real, connect, parameter, real_input
+from arthur_acausal import Component, Equations, Real, connect, parameter, real_input, real_output
 from arthur_acausal.components import rotational
 from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic import Cylinder, Fluid, HydraulicPort, PressureSensor, ServoValve
@@ -38,6 +38,9 @@ class Actuator(Component):
     joint = rotational.Flange()
     fluid: Fluid = Fluid()
     F_d: Real = real_input("N", default=0.0, nominal=100.0, description="force asked for, positive extends")
+    q_supply: Real = real_output(
+        "m^3/s", nominal=1e-5, display="L/min", description="flow asked of the supply"
+    )
     q_rated: Real = parameter(
         "m^3/s", default=2e-3 / 60, min=0.0, display="L/min", description="of the valve"
     )
@@ -98,3 +101,4 @@ class Actuator(Component):
             yield connect(sensor, signal)
         yield connect(self.F_d, control.F_d)
         yield connect(control.I, valve.I)
+        yield connect(control.q_supply, self.q_supply)

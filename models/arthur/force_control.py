@@ -24,6 +24,7 @@ class ForceController(Component):
     Inputs: ``F_d`` [N] the force asked for, ``F`` [N] the force of the rod (a load cell), ``v`` [m/s] the piston's
     velocity, positive extends, and the pressures ``p_s``, ``p_t``, ``p_A``, ``p_B`` [Pa] of supply, return and
     chambers. ``e`` [N] is the error, ``I`` [A] positive extends; what is beyond the valve's ``I_rated`` is ``excess``.
+    ``q_supply`` [m^3/s] is the flow that the piston takes from the supply: A_A v or -A_B v.
     """
 
     F_d: Real = real_input("N", default=0.0, nominal=100.0, description="force asked for")
@@ -35,12 +36,22 @@ class ForceController(Component):
     p_B: Real = real_input("Pa", nominal=1e7, description="pressure in chamber B")
     I: Real = real_output("A", nominal=0.1, description="current of the valve")
     I_rated: Real = parameter("A", default=1.0, min=0.0, description="of the valve")
+    A_A: Real = parameter("m^2", default=7.13e-5, min=0.0, description="piston area, side A")
+    A_B: Real = parameter("m^2", default=5.35e-5, min=0.0, description="annular area, side B")
+    v_small: Real = parameter("m/s", default=5e-3, min=0.0, description="rounds the flow asked for")
     e: Real = variable("N", nominal=10.0, description="error of the force")
+    q_supply: Real = real_output(
+        "m^3/s", nominal=1e-5, display="L/min", description="flow asked of the supply"
+    )
     excess: Real = variable("A", nominal=0.1, description="current asked for beyond the rated one")
 
     def equations(self) -> Equations:
         yield self.e == self.F_d - self.F
         yield self.excess == self.I - clamp(self.I, self.I_rated)
+        # A_A v where it extends, -A_B v where it retracts
+        speed = sqrt(self.v**2 + self.v_small**2) - self.v_small
+        half = (self.A_A - self.A_B) / 2 * self.v + (self.A_A + self.A_B) / 2 * speed
+        yield "flow of the supply", self.q_supply == half
 
 
 class FeedForwardControl(ForceController):
@@ -63,8 +74,6 @@ class FeedForwardControl(ForceController):
 
     fluid: Fluid = Fluid()
     K_V: Real = parameter("m^2/A", min=0.0, description="valve gain of eq. 5.35")
-    A_A: Real = parameter("m^2", default=7.13e-5, min=0.0, description="piston area, side A")
-    A_B: Real = parameter("m^2", default=5.35e-5, min=0.0, description="annular area, side B")
     k_v: Real = parameter("1", default=0.98, min=0.0, description="share of the velocity that is fed forward")
     k_p: Real = parameter("m/(s*N)", default=1.2e-4, min=0.0, description="proportional gain")
     T_i: Real = parameter("s", default=0.01, min=0.0, description="integral time")
