@@ -6,8 +6,10 @@ equation.
 
 from arthur_acausal.graph.blt import blt as blt
 from arthur_acausal.graph.blt import strongly_connected as strongly_connected
+from arthur_acausal.graph.dulmage_mendelsohn import Conflict as Conflict
 from arthur_acausal.graph.dulmage_mendelsohn import Decomposition as Decomposition
 from arthur_acausal.graph.dulmage_mendelsohn import StructurallySingular as StructurallySingular
+from arthur_acausal.graph.dulmage_mendelsohn import conflicts as conflicts
 from arthur_acausal.graph.dulmage_mendelsohn import dulmage_mendelsohn as dulmage_mendelsohn
 from arthur_acausal.graph.dummy_derivative import PRIORITIES as PRIORITIES
 from arthur_acausal.graph.dummy_derivative import StateSelection as StateSelection

@@ -1,5 +1,9 @@
 """Coarse Dulmage-Mendelsohn decomposition: where there are too many equations, and where too few.
 
+Within a part, what alternating paths reach from one unmatched row is a smallest set by itself: with any of its rows
+left out, the others match. (Rows that can be matched are independent in a transversal matroid, and such a set is the
+circuit that the row closes: Edmonds and Fulkerson (1965), J. Res. NBS 69B, 147-153.)
+
 Dulmage and Mendelsohn (1958), Canad. J. Math. 10, 517-534; Pothen and Fan (1990), ACM Trans. Math. Softw. 16,
 303-324.
 """
@@ -10,6 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from arthur_acausal.graph.matching import Edges, inverse, matching, transpose
+
+TRIED = 100  # unmatched rows from which a smallest set is sought
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,17 +35,48 @@ class Decomposition:
     well_variables: list[int]
 
 
+@dataclass(frozen=True, slots=True)
+class Conflict:
+    """A smallest set of rows that has one row more than columns; lists in ascending order.
+
+    With too many equations the rows are equations, and ``columns`` all the variables in them; with too few the rows
+    are variables, and ``columns`` all the equations that they occur in. ``others``: how many more such sets there are.
+    """
+
+    rows: list[int]
+    columns: list[int]
+    others: int
+
+
 class StructurallySingular(Exception):  # noqa: N818 (what was found, for the caller to explain)
     """Equations and variables cannot be matched one to one.
 
-    ``equations`` is the overdetermined part (too many equations for the variables in them), ``variables`` the
-    underdetermined part (too many variables for the equations they occur in). One of them may be empty.
+    ``too_many``: equations for too few variables; ``too_few``: variables for too few equations. One of them may be
+    missing.
     """
 
-    def __init__(self, equations: list[int], variables: list[int]) -> None:
-        super().__init__(f"structurally singular: equations {equations}, variables {variables}")
-        self.equations = equations
-        self.variables = variables
+    def __init__(self, too_many: Conflict | None, too_few: Conflict | None) -> None:
+        super().__init__(f"structurally singular: {too_many}, {too_few}")
+        self.too_many = too_many
+        self.too_few = too_few
+
+
+def conflicts(
+    edges: Edges, n_variables: int, assignment: Sequence[int]
+) -> tuple[Conflict | None, Conflict | None]:
+    """Return the smallest sets of too many equations and of too many variables, for a maximum matching."""
+    owner = inverse(assignment, n_variables)
+    return _smallest(edges, assignment, owner), _smallest(transpose(edges, n_variables), owner, assignment)
+
+
+def _smallest(edges: Edges, assignment: Sequence[int], owner: Sequence[int]) -> Conflict | None:
+    """Return the smallest of the sets that one unmatched row each reaches; None where all rows are matched."""
+    unmatched = _unmatched(assignment)
+    if not unmatched:
+        return None
+    found = [_reach(edges, [row], owner) for row in unmatched[:TRIED]]
+    rows, columns = min(found, key=lambda sets: len(sets[0]))
+    return Conflict(rows, columns, len(unmatched) - 1)
 
 
 def dulmage_mendelsohn(
@@ -49,8 +86,8 @@ def dulmage_mendelsohn(
     assigned = list(assignment) if assignment is not None else matching(edges, n_variables)
     owner = inverse(assigned, n_variables)
     equations_of = transpose(edges, n_variables)
-    over_equations, over_variables = _reach(edges, assigned, owner)
-    under_variables, under_equations = _reach(equations_of, owner, assigned)
+    over_equations, over_variables = _reach(edges, _unmatched(assigned), owner)
+    under_variables, under_equations = _reach(equations_of, _unmatched(owner), assigned)
     taken_equations = set(over_equations).union(under_equations)
     taken_variables = set(over_variables).union(under_variables)
     return Decomposition(
@@ -63,15 +100,17 @@ def dulmage_mendelsohn(
     )
 
 
-def _reach(edges: Edges, assignment: Sequence[int], owner: Sequence[int]) -> tuple[list[int], list[int]]:
-    """Return the rows and columns reached from the unmatched rows by alternating paths."""
-    rows = [row for row, column in enumerate(assignment) if column < 0]
-    seen = bytearray(len(owner))
-    columns = []
+def _unmatched(assignment: Sequence[int]) -> list[int]:
+    return [row for row, column in enumerate(assignment) if column < 0]
+
+
+def _reach(edges: Edges, start: Sequence[int], owner: Sequence[int]) -> tuple[list[int], list[int]]:
+    """Return the rows and columns reached from unmatched rows by alternating paths."""
+    rows = list(start)
+    seen: set[int] = set()
     for row in rows:  # grows while it is walked
         for column in edges[row]:
-            if not seen[column]:
-                seen[column] = True
-                columns.append(column)
+            if column not in seen:
+                seen.add(column)
                 rows.append(owner[column])
-    return sorted(rows), sorted(columns)
+    return sorted(rows), sorted(seen)

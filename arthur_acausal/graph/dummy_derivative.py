@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from arthur_acausal.graph.dulmage_mendelsohn import StructurallySingular
+from arthur_acausal.graph.dulmage_mendelsohn import Conflict, StructurallySingular, conflicts
 from arthur_acausal.graph.matching import NONE, Edges, augment, transpose
 
 PRIORITIES = {"never": 0, "avoid": 1, "default": 2, "prefer": 3, "always": 4}
@@ -38,7 +38,7 @@ def select_dummies(edges: Edges, n_candidates: int, priority: Sequence[int]) -> 
     Raises
     ------
     StructurallySingular
-        When the equations do not match any set of candidates; ``equations`` holds indices into ``edges``.
+        When the equations do not match any set of candidates; the rows of ``too_many`` are indices into ``edges``.
     """
     equations_of = transpose(edges, n_candidates)
     equation_of = [NONE] * n_candidates
@@ -48,7 +48,7 @@ def select_dummies(edges: Edges, n_candidates: int, priority: Sequence[int]) -> 
             equations_of, [c for c in range(n_candidates) if priority[c] == level], equation_of, candidate_of
         )
     if NONE in candidate_of:
-        raise StructurallySingular([e for e, c in enumerate(candidate_of) if c < 0], [])
+        raise StructurallySingular(conflicts(edges, n_candidates, candidate_of)[0], None)
     return sorted(candidate_of)
 
 
@@ -77,7 +77,10 @@ def select_states(
         try:
             chosen = select_dummies(level, len(candidates), [wanted[antiderivative[v]] for v in candidates])
         except StructurallySingular as error:
-            raise StructurallySingular([equations[index] for index in error.equations], []) from None
+            assert error.too_many is not None
+            rows = [equations[index] for index in error.too_many.rows]
+            columns = [candidates[index] for index in error.too_many.columns]
+            raise StructurallySingular(Conflict(rows, columns, error.too_many.others), None) from None
         selected = [candidates[index] for index in chosen]
         dummies += selected
         equations = [origin[e] for e in equations if origin[origin[e]] >= 0]

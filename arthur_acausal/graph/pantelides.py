@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from arthur_acausal.graph.dulmage_mendelsohn import StructurallySingular, dulmage_mendelsohn
+from arthur_acausal.graph.dulmage_mendelsohn import Conflict, StructurallySingular, conflicts
 from arthur_acausal.graph.matching import NONE, Edges, augment, inverse, matching
 
 
@@ -111,5 +111,9 @@ def _check_solvable(edges: Edges, derivative: Sequence[int]) -> None:
     assignment = matching(merged, len(lowest))
     if len(lowest) == len(edges) and min(assignment, default=0) >= 0:
         return
-    parts = dulmage_mendelsohn(merged, len(lowest), assignment)
-    raise StructurallySingular(parts.over_equations, [lowest[v] for v in parts.under_variables])
+    too_many, too_few = conflicts(merged, len(lowest), assignment)
+    if too_many is not None:
+        too_many = Conflict(too_many.rows, [lowest[v] for v in too_many.columns], too_many.others)
+    if too_few is not None:
+        too_few = Conflict([lowest[v] for v in too_few.rows], too_few.columns, too_few.others)
+    raise StructurallySingular(too_many, too_few)

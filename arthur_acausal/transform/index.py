@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import casadi as ca
@@ -11,7 +11,7 @@ from casadi import SX
 from arthur_acausal.declare.scope import Atom
 from arthur_acausal.errors import StructureError
 from arthur_acausal.flatten.block import Expression
-from arthur_acausal.graph import PRIORITIES, StructurallySingular, pantelides, select_states
+from arthur_acausal.graph import PRIORITIES, Conflict, StructurallySingular, pantelides, select_states
 from arthur_acausal.transform.linear import Coefficient, LinearAnalysis
 from arthur_acausal.transform.rows import Evaluator, Nodes, Ref, Row, incidence
 from arthur_acausal.transform.state_sets import StateSets, state_sets
@@ -146,31 +146,45 @@ def _differentiated(row: Row, nodes: Nodes, linear: LinearAnalysis, evaluator: E
 
 
 def _singular(singular: StructurallySingular, rows: list[Row], nodes: Nodes) -> StructureError:
-    equations = [rows[e].text for e in singular.equations]
-    variables = [nodes.name(v) for v in singular.variables]
-    return not_matching(equations, variables)
+    return not_matching(singular.too_many, singular.too_few, lambda e: rows[e].text, nodes.name)
 
 
-def not_matching(equations: Sequence[str], variables: Sequence[str]) -> StructureError:
+def not_matching(
+    too_many: Conflict | None,
+    too_few: Conflict | None,
+    equation: Callable[[int], str],
+    variable: Callable[[int], str],
+) -> StructureError:
     """Return the error for equations that are too many for their unknowns, and unknowns that nothing determines."""
-    parts = []
-    if equations:
-        parts.append(f"these equations are more than their unknowns: {listed(equations, '; ')}")
-    if variables:
-        parts.append(f"not determined: {listed(variables, ', ')}")
+    parts, cause = [], ""
+    if too_many is not None:
+        names = [variable(v) for v in too_many.columns]
+        only = f" (which hold only {listed(names, ', ')})" if names else " (nothing unknown is left in it)"
+        texts = listed([equation(e) for e in too_many.rows], "; ")
+        parts.append(f"these equations are more than their unknowns: {texts}{only}{_more(too_many)}")
+        cause = "some equations say the same thing, directly or around a loop"
+        cause += ", and nothing is left for the rest" if too_few is not None else ""
+    if too_few is not None:
+        among = f"{len(too_few.rows) - len(too_few.columns)} of " if too_few.columns else ""
+        texts = listed([equation(e) for e in too_few.columns], "; ")
+        only = f" (which stand only in {texts})" if texts else ""
+        names = [variable(v) for v in too_few.rows]
+        parts.append(f"not determined: {among}{listed(names, ', ')}{only}{_more(too_few)}")
     remedies = {
         (True, True): "remove one of the equations named, and add one for what is not determined",
         (True, False): "remove one of the equations named",
     }
     return StructureError(
         f"the system is structurally singular; {'; '.join(parts)}",
-        cause="some equations say the same thing, directly or around a loop, and nothing is left for the rest"
-        if equations
-        else "",
+        cause=cause,
         remedy=remedies.get(
-            (bool(equations), bool(variables)), "add an equation that determines one of them"
+            (too_many is not None, too_few is not None), "add an equation that determines one of them"
         ),
     )
+
+
+def _more(conflict: Conflict) -> str:
+    return f" and {conflict.others} more of this kind" if conflict.others else ""
 
 
 def listed(names: Sequence[str], separator: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from arthur_acausal.errors import StructureError
-from arthur_acausal.graph import TearingResult, blt, dulmage_mendelsohn, matching, tear
+from arthur_acausal.graph import TearingResult, blt, conflicts, matching, tear
 from arthur_acausal.transform.index import ReducedSystem, not_matching
 from arthur_acausal.transform.linear import Coefficient
 from arthur_acausal.transform.rows import Nodes
@@ -110,6 +110,5 @@ def _ordered(edges: dict[int, Coefficient], place: dict[int, int], rates: set[in
 def _unmatched(
     edges: list[list[int]], assigned: list[int], unknown: list[int], system: ReducedSystem, nodes: Nodes
 ) -> StructureError:
-    parts = dulmage_mendelsohn(edges, len(unknown), assigned)
-    equations = [system.rows[e].text for e in parts.over_equations]
-    return not_matching(equations, [nodes.name(unknown[v]) for v in parts.under_variables])
+    too_many, too_few = conflicts(edges, len(unknown), assigned)
+    return not_matching(too_many, too_few, lambda e: system.rows[e].text, lambda v: nodes.name(unknown[v]))

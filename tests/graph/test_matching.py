@@ -8,7 +8,15 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
 
-from arthur_acausal.graph import augment, dulmage_mendelsohn, inverse, matching, transpose
+from arthur_acausal.graph import (
+    Conflict,
+    augment,
+    conflicts,
+    dulmage_mendelsohn,
+    inverse,
+    matching,
+    transpose,
+)
 
 graphs = st.integers(0, 12).flatmap(
     lambda n: st.tuples(
@@ -80,6 +88,40 @@ def test_decomposition_of_a_literal_graph() -> None:
     assert (parts.over_equations, parts.over_variables) == ([0, 1], [0])
     assert (parts.under_equations, parts.under_variables) == ([4], [2, 4])
     assert (parts.well_equations, parts.well_variables) == ([2, 3], [1, 3])
+
+
+def test_smallest_conflict_of_a_literal_graph() -> None:
+    # 0-1-2: three equations for two variables; 3, 4 both of variable 2, with 5 beside them; nothing for 4 and 5.
+    edges = [[0, 1], [0], [1], [2], [2], [2, 3, 4, 5]]
+    too_many, too_few = conflicts(edges, 6, matching(edges, 6))
+    assert too_many == Conflict([3, 4], [2], 1)
+    assert too_few is not None and (too_few.columns, too_few.others) == ([5], 1)
+    assert len(too_few.rows) == 2 and set(too_few.rows) < {3, 4, 5}
+    assert conflicts([[0, 1], [1]], 2, [0, 1]) == (None, None)
+    assert conflicts([[]], 1, [-1]) == (Conflict([0], [], 0), Conflict([0], [], 0))
+
+
+@given(graphs)
+def test_a_conflict_has_one_equation_more_than_variables_and_none_to_spare(
+    graph: tuple[int, list[list[int]]],
+) -> None:
+    n, edges = graph
+    too_many, too_few = conflicts(edges, n, matching(edges, n))
+    deficiency = len(edges) - size(edges, n)
+    for found, lists, missing in (
+        (too_many, edges, deficiency),
+        (too_few, transpose(edges, n), n - size(edges, n)),
+    ):
+        if found is None:
+            assert missing == 0
+            continue
+        assert found.others == missing - 1
+        assert len(found.rows) == len(found.columns) + 1
+        assert {c for row in found.rows for c in lists[row]} == set(found.columns)
+        width = max(len(edges), n)
+        for left_out in found.rows:
+            others = [lists[row] for row in found.rows if row != left_out]
+            assert size(others, width) == len(others)
 
 
 @given(graphs)

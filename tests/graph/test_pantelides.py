@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from arthur_acausal.graph import (
+    Conflict,
     StructurallySingular,
     chains,
     matching,
@@ -83,29 +84,35 @@ def test_derivative_of_an_algebraic_variable_is_appended() -> None:
     assert result.edges[2] == [1, 0]
 
 
-def test_too_many_equations_for_a_variable() -> None:
+def refused(edges: list[list[int]], derivative: list[int]) -> StructurallySingular:
     with pytest.raises(StructurallySingular) as caught:
-        pantelides([[0], [0], [1, 2]], [-1, -1, -1])
-    assert caught.value.equations == [0, 1]
-    assert caught.value.variables == [1, 2]
+        pantelides(edges, derivative)
+    return caught.value
+
+
+def test_too_many_equations_for_a_variable() -> None:
+    singular = refused([[0], [0], [1, 2]], [-1, -1, -1])
+    assert singular.too_many == Conflict([0, 1], [0], 0)
+    assert singular.too_few == Conflict([1, 2], [2], 0)
 
 
 def test_singular_although_derivatives_would_match() -> None:
     # x' = 1, x = 0 and nothing for y: x and x' are one unknown
-    with pytest.raises(StructurallySingular) as caught:
-        pantelides([[1], [0]], [1, -1, -1])
-    assert caught.value.equations == [0, 1]
-    assert caught.value.variables == [2]
+    singular = refused([[1], [0]], [1, -1, -1])
+    assert singular.too_many == Conflict([0, 1], [0], 0)
+    assert singular.too_few == Conflict([2], [], 0)
 
 
-@pytest.mark.parametrize(
-    ("edges", "equations", "variables"), [([[0]], [], [0, 2]), ([[0], [1], [2]], [0, 1], [])]
-)
-def test_counts_differ(edges: list[list[int]], equations: list[int], variables: list[int]) -> None:
-    edges = [[0, 2]] if len(edges) == 1 else edges
-    with pytest.raises(StructurallySingular) as caught:
-        pantelides(edges, [1, -1, -1])
-    assert (caught.value.equations, caught.value.variables) == (equations, variables)
+def test_too_few_equations() -> None:
+    singular = refused([[0, 2]], [1, -1, -1])  # one equation of x and y
+    assert singular.too_many is None
+    assert singular.too_few == Conflict([0, 2], [0], 0)
+
+
+def test_more_equations_than_variables() -> None:
+    singular = refused([[2], [0], [1]], [1, -1, -1])  # one of y, and both of x
+    assert singular.too_many == Conflict([1, 2], [0], 0)
+    assert singular.too_few is None
 
 
 def test_long_chain_of_constraints() -> None:
@@ -184,4 +191,12 @@ def test_dummies_of_lowest_priority() -> None:
     assert select_dummies([[0, 1], [2]], 3, [2, 0, 4]) == [1, 2]
     with pytest.raises(StructurallySingular) as caught:
         select_dummies([[0], [0]], 2, [2, 2])
-    assert len(caught.value.equations) == 1
+    assert (caught.value.too_many, caught.value.too_few) == (Conflict([0, 1], [0], 0), None)
+
+
+def test_states_that_cannot_be_chosen_are_named_by_their_numbers() -> None:
+    # x + y = 0 and x - y = 0 say that both are 0; without the entries of y one derivative cannot serve both.
+    edges, derivative = [[0], [0], [1, 0], [1, 0]], [1, -1, 3, -1]
+    with pytest.raises(StructurallySingular) as caught:
+        select_states(edges, derivative, [2, 3, -1, -1], [2, 2, 2, 2])
+    assert caught.value.too_many == Conflict([2, 3], [1], 0)

@@ -1,0 +1,151 @@
+"""How many small random faults in the compiler's graph algorithms and transformations do the tests notice?
+
+    python -m benchmarks.mutants [--seed 1] [--count 50] [--json] [FILE ...]
+
+Each mutant is one random change (a comparison, an operator, a constant off by one, a dropped statement, a negated
+condition, an early return, swapped arguments) in `arthur_acausal/graph` or `arthur_acausal/transform`, made in a
+temporary copy of the tree. The tests run there up to the first failure; a mutant is killed if one fails, or if they do
+not end in time. Survivors are shown with their difference: each is a gap in the tests, or a change without effect.
+"""
+
+from __future__ import annotations
+
+import difflib
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from benchmarks.measure import load_average, parser
+from benchmarks.mutate import Mutation, mutations
+
+ROOT = Path(__file__).resolve().parents[1]
+MUTATED = ("arthur_acausal/graph", "arthur_acausal/transform")
+COPIED = ("arthur_acausal", "benchmarks", "components", "models", "tests", "pyproject.toml")
+TESTS = (
+    "tests/graph",
+    "tests/transform",
+    "tests/flatten",
+    "tests/faults",
+    "tests/metamorphic",
+    "tests/codegen/test_recovery.py",
+)
+PATIENCE = 5.0  # times what the tests take without a mutant
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """A mutant and what became of it: "killed", "timeout" (killed, too) or "survived"."""
+
+    file: str
+    line: int
+    kind: str
+    outcome: str
+    diff: str
+
+
+class Copy:
+    """A copy of the tree in which the tests run."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        for name in COPIED:
+            source, target = ROOT / name, folder / name
+            if source.is_dir():
+                shutil.copytree(source, target, symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
+            else:
+                shutil.copy(source, target)
+
+    def read(self, file: str) -> str:
+        """Return the text of a file."""
+        return (self.folder / file).read_text(encoding="utf-8")
+
+    def write(self, file: str, text: str) -> None:
+        """Change a file; compiled code is known by the second in which its source was written: away with it."""
+        path = self.folder / file
+        path.write_text(text, encoding="utf-8")
+        for compiled in (path.parent / "__pycache__").glob(f"{path.stem}.*.pyc"):
+            compiled.unlink()
+
+    def tests_pass(self, timeout: float | None) -> bool:
+        """Run the tests up to the first failure. Raises subprocess.TimeoutExpired."""
+        command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *TESTS]
+        environment = {**os.environ, "PYTHONPATH": str(self.folder)}
+        environment["ARTHUR_CACHE_DIR"] = str(self.folder / "cache")
+        done = subprocess.run(
+            command, cwd=self.folder, env=environment, timeout=timeout, capture_output=True, check=False
+        )
+        return done.returncode == 0
+
+
+def run(seed: int, count: int, files: list[str], progress: bool) -> list[Outcome]:
+    """Make ``count`` random mutants one after the other and return what became of each."""
+    outcomes = []
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Copy(Path(folder))
+        candidates = [(file, mutation) for file in files for mutation in mutations(copy.read(file))]
+        chosen = random.Random(seed).sample(candidates, count)
+        copy.tests_pass(None)  # fills the caches
+        begin = time.perf_counter()
+        if not copy.tests_pass(None):
+            raise SystemExit("the tests fail without any mutant")
+        timeout = PATIENCE * (time.perf_counter() - begin)
+        for file, mutation in chosen:
+            outcomes.append(_judge(copy, file, mutation, timeout))
+            if progress:
+                done = outcomes[-1]
+                print(f"{len(outcomes):3} {done.outcome:9} {file}:{done.line} {done.kind}", flush=True)
+    return outcomes
+
+
+def _judge(copy: Copy, file: str, mutation: Mutation, timeout: float) -> Outcome:
+    original = copy.read(file)
+    changed = mutation.apply(original)
+    copy.write(file, changed)
+    try:
+        outcome = "survived" if copy.tests_pass(timeout) else "killed"
+    except subprocess.TimeoutExpired:
+        outcome = "timeout"
+    finally:
+        copy.write(file, original)
+    lines = difflib.unified_diff(original.splitlines(), changed.splitlines(), file, file, n=1, lineterm="")
+    return Outcome(file, mutation.line, mutation.kind, outcome, "\n".join(lines))
+
+
+def main() -> None:
+    """Make mutants, test them, and print what survived."""
+    command_line = parser("Mutants of the compiler's graph algorithms and transformations.")
+    command_line.add_argument("--seed", type=int, default=1)
+    command_line.add_argument("--count", type=int, default=50)
+    command_line.add_argument("files", nargs="*", help="the files to change, from the root; all by default")
+    given = command_line.parse_args()
+    everything = [
+        str(f.relative_to(ROOT)) for folder in MUTATED for f in sorted((ROOT / folder).glob("*.py"))
+    ]
+    outcomes = run(given.seed, given.count, given.files or everything, progress=not given.json)
+    survivors = [o for o in outcomes if o.outcome == "survived"]
+    killed = len(outcomes) - len(survivors)
+    if given.json:
+        figures = {
+            "seed": given.seed,
+            "count": len(outcomes),
+            "killed": killed,
+            "score": killed / len(outcomes),
+            "survivors": [asdict(o) for o in survivors],
+            "load_average": load_average(),
+        }
+        print(json.dumps(figures))
+        return
+    for survivor in survivors:
+        print(f"\n{survivor.diff}")
+    print(f"\n{killed} of {len(outcomes)} mutants killed ({killed / len(outcomes):.0%}; required 80 %)")
+
+
+if __name__ == "__main__":
+    main()
