@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from arthur_acausal.declare.statement import connect as connect
     from arthur_acausal.declare.statement import der as der
     from arthur_acausal.declare.statement import edge as edge
+    from arthur_acausal.declare.statement import homotopy as homotopy
     from arthur_acausal.declare.statement import if_else as if_else
+    from arthur_acausal.declare.statement import initial as initial
     from arthur_acausal.declare.statement import pre as pre
     from arthur_acausal.declare.statement import reinit as reinit
     from arthur_acausal.declare.statement import sampled as sampled
@@ -67,7 +69,9 @@ _HOME = {
     "declare.statement": (
         "connect",
         "der",
+        "homotopy",
         "if_else",
+        "initial",
         "pre",
         "reinit",
         "edge",

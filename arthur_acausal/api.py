@@ -146,6 +146,11 @@ class Translation:
         """
         from arthur_acausal.analysis.sensitivity import sensitivities
 
+        if "initial" in self.structured.nodes.start_only:
+            raise UsageError(
+                "sensitivities of a model that uses initial() are not computed",
+                cause="its equations at the start are not those of the run",
+            )
         run = solution.run
         held = {path: value for path, value in run.inputs.items() if isinstance(value, float)}
         for path in run.inputs:

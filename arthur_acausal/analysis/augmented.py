@@ -135,6 +135,7 @@ class Stretch:
         self.differential: BoolArray = np.tile(dae.differential, k + 1)
         self.u_paths, self.u_default = dae.u_paths, dae.u_default
         self.z_paths: list[str] = []
+        self.blends, self.starting = False, None
         self.relations: list[Any] = []
         self.whens: list[Any] = []
         self.assignments: list[Any] = []

@@ -15,7 +15,11 @@ from arthur_acausal.transform.structured import StructuredDAE
 
 @dataclass(frozen=True, slots=True)
 class Arguments:
-    """The symbols of all kernels; z are the discrete variables now, zp before the event, m the frozen relations."""
+    """The symbols of all kernels; z are the discrete variables now, zp before the event, m the frozen relations.
+
+    ``starting``: whether they are those of the start. ``blend``: the part of homotopy's actual expressions; at the
+    start it is the last entry of p where there are such, else 1.
+    """
 
     t: SX
     y: SX
@@ -26,11 +30,13 @@ class Arguments:
     z: SX
     zp: SX
     m: SX
+    blend: SX
+    starting: bool
 
     @property
     def p(self) -> SX:
         """Parameters, and the start values behind them."""
-        return ca.vertcat(self.parameters, self.starts)
+        return ca.vertcat(self.parameters, self.starts, *([] if self.blend.is_constant() else [self.blend]))
 
     def continuous(self) -> list[SX]:
         """Return the arguments of kernels that are evaluated between events."""
@@ -50,6 +56,7 @@ class StartSlot:
     value: float | SX
     fixed: bool
     path: str
+    where: str = ""
 
 
 @dataclass(slots=True)
@@ -66,8 +73,11 @@ class Assembly:
     pivots: list[tuple[SX, str]] = field(default_factory=list)
 
 
-def assemble(dae: StructuredDAE, n_starts: int) -> Assembly:
-    """Substitute assignments in order and return residuals and the values of all unknowns."""
+def assemble(dae: StructuredDAE, n_starts: int, *, starting: bool = False) -> Assembly:
+    """Substitute assignments in order and return residuals and the values of all unknowns.
+
+    ``starting``: while initial values are sought, else of the run.
+    """
     flat, causal, nodes = dae.flat, dae.causal, dae.nodes
     y_nodes = causal.states + causal.torn
     place = _parameter_places(dae)
@@ -81,6 +91,8 @@ def assemble(dae: StructuredDAE, n_starts: int) -> Assembly:
         SX.sym("z", len(flat.scope.discrete)),
         SX.sym("zp", len(flat.scope.discrete)),
         SX.sym("m", len(flat.relations) + (dae.reduced.sets is not None)),
+        SX.sym("homotopy") if starting and "homotopy" in nodes.start_only else SX(1.0),
+        starting,
     )
     values: list[SX] = [SX(0.0)] * len(nodes.all)
     y, yp = elements(arguments.y), elements(arguments.yp)
@@ -159,6 +171,10 @@ def lookup(dae: StructuredDAE, assembly: Assembly, *, before: bool) -> Callable[
                 return m[ref.number]
             case "time":
                 return arguments.t
+            case "initial":
+                return SX(float(arguments.starting))
+            case "homotopy":
+                return arguments.blend
         return zero
 
     return look

@@ -36,6 +36,8 @@ class CompiledDAE:
 
     The vector p holds the parameters, then the start values of variables, then those of discrete variables.
     z are the discrete variables (zp: before the event), m the frozen truth values of the relations.
+    ``starting``: the system that holds in place of this one while initial values are sought, where it is another. If
+    it ``blends``, its p has one entry more: the part of homotopy's actual expressions.
     """
 
     name: str
@@ -67,6 +69,8 @@ class CompiledDAE:
     relations_of_rates: bool
     sets: StateSets | None = field(repr=False)
     dummies: frozenset[int] = field(repr=False)
+    blends: bool = False
+    starting: CompiledDAE | None = field(default=None, repr=False)
 
     @property
     def n(self) -> int:
@@ -95,7 +99,7 @@ class CompiledDAE:
         for path, value in (start or {}).items():
             number, sign = self._start_entry(path)
             values[number] = sign * to_si(value, self.starts[number].unit, path=path)
-        full = np.concatenate([p, values])
+        full = np.concatenate([p, values, np.ones(int(self.blends))])
         pivots = np.asarray(self.functions["pivots"](full), dtype=float).reshape(-1)
         for value, label in zip(pivots.tolist(), self.pivot_labels, strict=True):
             if value == 0.0 or not np.isfinite(value):

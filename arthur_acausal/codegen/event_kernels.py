@@ -25,7 +25,7 @@ def time_only(g: SX, a: Any) -> bool:
 
 
 def whens_of(
-    dae: StructuredDAE, look: Any, y_place: dict[int, int]
+    dae: StructuredDAE, look: Any, y_place: dict[int, int], *, starting: bool
 ) -> tuple[list[SX], list[SX], list[WhenClause], list[Assignment]]:
     conditions: list[SX] = []
     values: list[SX] = []
@@ -36,8 +36,10 @@ def whens_of(
         number = -1
         if clause.condition is not None:
             number = len(whens)
-            whens.append(WhenClause(label or "when", clause.where, clause.earlier))
-            conditions.append(dae.evaluator(placed_row(dae, clause.condition, item), look))
+            row = placed_row(dae, clause.condition, item)
+            initial = starting and any(ref.kind == "initial" for ref in row.refs)
+            whens.append(WhenClause(label or "when", clause.where, clause.earlier, initial))
+            conditions.append(dae.evaluator(row, look))
         for assignment in clause.assignments:
             text = f"{label} ({assignment.where})".lstrip()
             value = dae.evaluator(placed_row(dae, assignment.value, item), look)

@@ -32,15 +32,18 @@ SHARED_UP_TO = 1000  # rows
 COMPILED = ("residual", "jacobian", "roots")
 
 
-def generate(dae: StructuredDAE, *, compile: str = "auto", continuation: bool = False) -> CompiledDAE:
+def generate(
+    dae: StructuredDAE, *, compile: str = "auto", continuation: bool = False, starting: bool = False
+) -> CompiledDAE:
     """Return the compiled system.
 
     ``compile``: "auto" (by the system's C compiler where that pays), "always" or "never". ``continuation``: it
     continues the run of another set of states: the states at the start are given, and nothing else holds there.
+    ``starting``: the system that holds at the start only, with ``initial()`` true and homotopy as an argument.
     """
     slots = continuation_starts(dae) if continuation else collect_starts(dae)
     n_discrete = len(dae.flat.scope.discrete)
-    assembly = assemble(dae, len(slots) + n_discrete)
+    assembly = assemble(dae, len(slots) + n_discrete, starting=starting)
     y_place = {node: k for k, node in enumerate(assembly.y_nodes)}
     table = parameter_table(dae, assembly)
     entries, aliases = start_entries(dae, slots, y_place, len(table.infos))
@@ -48,7 +51,8 @@ def generate(dae: StructuredDAE, *, compile: str = "auto", continuation: bool = 
     hot = compile_functions([functions[name] for name in COMPILED], mode=compile)
     functions |= dict(zip(COMPILED, hot, strict=True))
     nominal, minimum, maximum = attribute_arrays(dae, assembly.y_nodes)
-    flat, n_states = dae.flat, len(dae.causal.states)
+    flat, n_states, start_only = dae.flat, len(dae.causal.states), dae.nodes.start_only
+    own_start = bool(start_only) and not (starting or continuation)
     return CompiledDAE(
         name=flat.name,
         y_paths=[dae.nodes.name(n) for n in assembly.y_nodes],
@@ -69,6 +73,8 @@ def generate(dae: StructuredDAE, *, compile: str = "auto", continuation: bool = 
         recovery=_recovery(dae, assembly, y_place),
         sets=dae.reduced.sets,
         dummies=dae.reduced.dummies,
+        blends=starting and "homotopy" in start_only,
+        starting=generate(dae, compile="never", starting=True) if own_start else None,
         **tables,
     )
 
@@ -101,7 +107,7 @@ def _functions(
     both = _shared(dy + cj * dyp)
     pattern = both.sparsity()
     roots = [dae.evaluator(placed_row(dae, r.relation.g, r), look) for r in dae.flat.relations]
-    conditions, values, whens, assignments = events = whens_of(dae, before, y_place)
+    conditions, values, whens, assignments = events = whens_of(dae, before, y_place, starting=a.starting)
     entries = add_switching(dae, assembly, look, events)
     initial, labels = _initial(dae, assembly, slots, [] if continuation else dae.flat.initial)
     slope = ca.horzcat(ca.jacobian(initial, a.y), ca.jacobian(initial, a.yp))
@@ -178,7 +184,7 @@ def _initial(
     for k, slot in enumerate(slots):
         if slot.fixed:
             values.append(slot.sign * assembly.node_values[slot.node] - starts[k])
-            labels.append(f"fixed start of {slot.path}")
+            labels.append(f"fixed start of {slot.path}" + (f" ({slot.where})" if slot.where else ""))
     return _column(values), labels
 
 

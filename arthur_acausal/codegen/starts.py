@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from casadi import SX
 from numpy.typing import NDArray
 
 from arthur_acausal.codegen.assemble import StartSlot
@@ -35,7 +36,8 @@ def collect_starts(dae: StructuredDAE) -> list[StartSlot]:
         chosen = fixed or [min(found, key=lambda c: c[0])]
         for _, sign, declared in chosen:
             assert declared.start is not None
-            slots.append(StartSlot(node, sign, declared.start.value, bool(fixed), declared.path))  # type: ignore[arg-type]
+            value: float | SX = declared.start.value  # type: ignore[assignment]
+            slots.append(StartSlot(node, sign, value, bool(fixed), declared.path, declared.where))
     return slots
 
 

@@ -26,11 +26,15 @@ class Relation:
 
 @dataclass(frozen=True, slots=True)
 class WhenClause:
-    """One ``when``: carried out when its condition becomes true, unless one of the ``earlier`` clauses is, too."""
+    """One ``when``: carried out when its condition becomes true, unless one of the ``earlier`` clauses is, too.
+
+    ``initial``: it acts at the start, too, where its condition, which names ``initial()``, holds.
+    """
 
     label: str
     where: str
     earlier: int = 0
+    initial: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,9 @@ from casadi import SX
 from arthur_acausal.declare.quantity import Quantity, Start
 from arthur_acausal.errors import DeclarationError
 
-AtomKind: TypeAlias = Literal["variable", "der", "parameter", "discrete", "pre", "mode", "time"]
+AtomKind: TypeAlias = Literal[
+    "variable", "der", "parameter", "discrete", "pre", "mode", "time", "initial", "homotopy"
+]
 
 
 class Atom(NamedTuple):
@@ -93,8 +95,10 @@ class Scope:
                 return f"pre({self.short(self.discrete[atom.number].path)})"
             case "mode":
                 return f"relation[{atom.number}]"
-            case "time":
-                return "time"
+            case "time" | "homotopy":
+                return atom.kind
+            case "initial":
+                return "initial()"
             case _:
                 return self.short(getattr(self, atom.kind)[atom.number].path)
 
@@ -109,9 +113,9 @@ class Scope:
         return self._atoms.get(symbol.element_hash())
 
     def quantity(self, atom: Atom) -> Quantity | None:
-        """Return the declaration behind an atom; None for time and relations."""
+        """Return the declaration behind an atom; None for time, relations and the like."""
         space = {"der": "variable", "pre": "discrete"}.get(atom.kind, atom.kind)
-        if space in ("time", "mode"):
+        if space in ("time", "mode", "initial", "homotopy"):
             return None
         declared: Declared = getattr(self, space)[atom.number]
         return declared.quantity

@@ -1,4 +1,4 @@
-"""What equations are made of beside ``==``: der, pre, time, if_else, connect, when, reinit, terminate."""
+"""What equations are made of beside ``==``: der, pre, time, initial, homotopy, if_else, connect, when, ..."""
 
 from __future__ import annotations
 
@@ -69,6 +69,21 @@ def time() -> SX:
     return current_scope("time()").symbol("time", 0)
 
 
+def initial() -> SX:
+    """Return a condition that holds while the initial values are sought, and never afterwards."""
+    return current_scope("initial()").symbol("initial", 0)
+
+
+def homotopy(actual: Expression, simplified: Expression) -> SX:
+    """Return ``actual``; where the initial values are not found at once, they are first sought with ``simplified``.
+
+    From there ``homotopy * actual + (1 - homotopy) * simplified`` leads to ``actual`` in steps. Simplified laws are
+    best linear, or constant. Once the run has begun there is ``actual`` only.
+    """
+    part = current_scope("homotopy()").symbol("homotopy", 0)
+    return part * actual + (1 - part) * simplified
+
+
 def der(x: SX) -> SX:
     """Return the time derivative of a variable, or of an expression by the chain rule."""
     scope = current_scope("der()")
@@ -80,7 +95,7 @@ def der(x: SX) -> SX:
     result = SX(0.0)
     for symbol in ca.symvar(x):
         found = scope.atom(symbol)
-        if found is None or found.kind in ("parameter", "discrete", "pre", "mode"):
+        if found is None or found.kind in ("parameter", "discrete", "pre", "mode", "initial", "homotopy"):
             continue
         if found.kind == "der":
             raise DeclarationError(

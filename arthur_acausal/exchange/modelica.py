@@ -196,6 +196,10 @@ class _Writer:
                 return identifier(scope.discrete[atom.number].path)
             case "pre":
                 return f"pre({identifier(scope.discrete[atom.number].path)})"
+            case "initial":
+                return "initial()"
+            case "homotopy":
+                return "1.0"
         return "time"
 
     def _printer(

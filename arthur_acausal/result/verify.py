@@ -87,6 +87,10 @@ def _values(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> 
                 return solution[scope.parameter[flat.parameter(atom.number)].path]
             case "discrete" | "pre":
                 return solution[scope.discrete[atom.number].path]
+            case "initial":
+                return np.zeros(len(t))
+            case "homotopy":
+                return np.ones(len(t))
             case "mode":
                 return solution.modes[:, atom.number]
             case "der":

@@ -27,6 +27,7 @@ class Conditions:
     pinned : states that keep the value y has (their start value, or what their own condition says).
     rows : rows of h to solve together with F.
     assumed : states among `pinned` that have no initial condition: their start value is taken.
+    pinning : rows of h that say the values of the other states among `pinned`.
     surplus : rows of h that have no unknown left; they must hold all the same.
     conflict : for messages, rows of F and of h (from n on) that determine too much where there is surplus.
     undetermined : y and y' (from n on) that nothing determines; empty if all is well.
@@ -35,6 +36,7 @@ class Conditions:
     pinned: Index
     rows: Index
     assumed: Index
+    pinning: list[int] = field(default_factory=list)
     surplus: list[int] = field(default_factory=list)
     conflict: list[int] = field(default_factory=list)
     undetermined: list[int] = field(default_factory=list)
@@ -52,7 +54,7 @@ def choose(dae: DAE, evaluator: Evaluator, attributes: Attributes) -> Conditions
     pinned = set(simple.values())
     if not rest:
         assumed = states - pinned
-        return Conditions(_index(states), _index(()), _index(assumed))
+        return Conditions(_index(states), _index(()), _index(assumed), list(simple))
     return _match(dae, evaluator, attributes, pinned, rest, simple)
 
 
@@ -119,7 +121,13 @@ def _match(
     unknown = set(range(n)) - pinned | {n + j for j in np.flatnonzero(dae.differential).tolist()}
     undetermined = sorted(unknown - set(assignment))
     return Conditions(
-        _index(pinned.union(assumed)), _index(chosen), _index(assumed), surplus, conflict, undetermined
+        _index(pinned.union(assumed)),
+        _index(chosen),
+        _index(assumed),
+        list(simple),
+        surplus,
+        conflict,
+        undetermined,
     )
 
 

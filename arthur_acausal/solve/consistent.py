@@ -73,11 +73,19 @@ class ConsistentSystem:
         """The unknowns as the evaluator holds them."""
         return np.concatenate([self._evaluator.y[self.free], self._evaluator.yp[self.states]])
 
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """The unknowns' min and max."""
+        return self._low, self._high
+
+    def write(self, w: FloatArray) -> None:
+        """Write the unknowns to the evaluator."""
+        self._evaluator.y[self.free] = w[: self.free.size]
+        self._evaluator.yp[self.states] = w[self.free.size :]
+
     def residual(self, w: FloatArray) -> FloatArray:
         """Write w to the evaluator; F and the conditions there."""
         evaluator = self._evaluator
-        evaluator.y[self.free] = w[: self.free.size]
-        evaluator.yp[self.states] = w[self.free.size :]
+        self.write(w)
         values = evaluator.residual()
         if self._with_initial:
             return np.concatenate([values, evaluator.initial()[self.conditions]])
@@ -112,8 +120,7 @@ class ConsistentSystem:
             # A bound may stand between the start and the solution: bounds are advice, equations are not.
             unbounded = np.full(self.size, np.inf)
             solved = newton(self, solved.w, scale, -unbounded, unbounded, tolerance, most)
-        self._evaluator.y[self.free] = solved.w[: self.free.size]
-        self._evaluator.yp[self.states] = solved.w[self.free.size :]
+        self.write(solved.w)
         return solved
 
     def rates(self, solve: Solve, ahead: float, now: FloatArray) -> FloatArray:

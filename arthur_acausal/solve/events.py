@@ -16,7 +16,7 @@ import numpy as np
 from arthur_acausal.errors import SimulationError
 from arthur_acausal.solve.consistent import ConsistentSystem
 from arthur_acausal.solve.diagnosis import listed
-from arthur_acausal.solve.initialize import failure
+from arthur_acausal.solve.initial_failure import failure
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.newton import Index, Solve
 from arthur_acausal.solve.options import SolverOptions

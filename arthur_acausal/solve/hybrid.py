@@ -83,14 +83,18 @@ class HybridRun:
         """Find consistent values at the start."""
         done = initialize(self._dae, self._evaluator, self._attributes, self._modes, self._options)
         self._statistics.initial_iterations = done.iterations
+        self._statistics.initial_method = done.method
         self._statistics.messages += done.messages
+        if done.terminated is not None:
+            self._ended = ("terminated", done.terminated)
         self._record_point()
         self._statistics.initialize_s = perf_counter() - self._begun - self._statistics.load_s
 
     def integrate(self) -> Trajectory:
         """Run to the end."""
         self._prepare()
-        self._event({})  # what is true just after the start but not at it
+        if self._ended is None:
+            self._event({})  # what is true just after the start but not at it
         while self._ended is None:
             self._advance()
         return self.trajectory(*self._ended)

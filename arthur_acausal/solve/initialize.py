@@ -8,23 +8,30 @@ import numpy as np
 
 from arthur_acausal.errors import InitializationError
 from arthur_acausal.solve.conditions import Conditions, choose
+from arthur_acausal.solve.conflict import check_surplus
 from arthur_acausal.solve.consistent import ConsistentSystem
-from arthur_acausal.solve.diagnosis import listed, null_vectors, scaled_rows
+from arthur_acausal.solve.continuation import Point, homotopy, pseudo_transient, resting
+from arthur_acausal.solve.diagnosis import listed
+from arthur_acausal.solve.initial_failure import NEARER, failure, undetermined
 from arthur_acausal.solve.modes import Modes
-from arthur_acausal.solve.newton import Index, Solved
+from arthur_acausal.solve.newton import Solved
 from arthur_acausal.solve.options import SolverOptions
-from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator, FloatArray
+from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator
 
-NEARER = "give start values inside the range of the equations and nearer to the solution"
-CONSISTENT = 1e-6  # scaled residual up to which a surplus initial condition counts as fulfilled
+UNSETTLED = "the relations do not settle"
 
 
 @dataclass(frozen=True, slots=True)
 class Initialized:
-    """What the initialisation did; the values themselves are in the evaluator."""
+    """What the initialisation did; the values themselves are in the evaluator.
+
+    ``terminated``: the message of a terminate() that acts at the start.
+    """
 
     iterations: int
+    method: str
     messages: list[str]
+    terminated: str | None = None
 
 
 def initialize(
@@ -38,128 +45,120 @@ def initialize(
 
     Raises InitializationError, naming equations and unknowns.
     """
-    evaluator.y[:], evaluator.yp[:] = attributes.start, 0.0
-    evaluator.z[:] = evaluator.zp[:] = attributes.z_start
-    modes.update()
-    conditions = choose(dae, evaluator, attributes)
-    if conditions.undetermined:
-        raise _undetermined(dae, conditions)
-    free = np.setdiff1d(np.arange(dae.n), conditions.pinned)
-    system = ConsistentSystem(dae, evaluator, attributes, free, conditions.rows)
+    if dae.starting is None:
+        return _Start(dae, evaluator, attributes, modes, options).run()
+    starting = dae.starting.evaluator()
+    starting.t[:], starting.u[:] = evaluator.t, evaluator.u
+    starting.p[: evaluator.p.size] = evaluator.p
+    done = _Start(dae.starting, starting, attributes, Modes(dae.starting, starting), options).run()
+    Point.of(starting).restore(evaluator)
+    _enter(dae, evaluator, attributes, modes, options)
+    return done
+
+
+def _enter(
+    dae: DAE, evaluator: Evaluator, attributes: Attributes, modes: Modes, options: SolverOptions
+) -> None:
+    """Go over from the equations of the start to those of the run: the states stay."""
+    algebraic = np.flatnonzero(~dae.differential)
+    system = ConsistentSystem(dae, evaluator, attributes, algebraic, algebraic[:0])
+    solved = _settled(system, modes, options)
+    if solved.reason:
+        raise failure(dae, evaluator, system, solved)
+    modes.settle()
+
+
+class _Start:
+    """The search for initial values; it works in place on the evaluator."""
+
+    def __init__(
+        self, dae: DAE, evaluator: Evaluator, attributes: Attributes, modes: Modes, options: SolverOptions
+    ) -> None:
+        self._dae, self._evaluator, self._attributes = dae, evaluator, attributes
+        self._modes, self._options = modes, options
+
+    def run(self) -> Initialized:
+        """Choose the conditions, solve, and check those that were left out."""
+        dae, evaluator, attributes, modes = self._dae, self._evaluator, self._attributes, self._modes
+        evaluator.y[:], evaluator.yp[:] = attributes.start, 0.0
+        evaluator.z[:] = evaluator.zp[:] = attributes.z_start
+        modes.update()
+        conditions = choose(dae, evaluator, attributes)
+        if conditions.undetermined:
+            raise undetermined(dae, conditions)
+        free = np.setdiff1d(np.arange(dae.n), conditions.pinned)
+        system = ConsistentSystem(dae, evaluator, attributes, free, conditions.rows)
+        method, iterations = self._solve(system)
+        check_surplus(dae, evaluator, attributes, conditions)
+        messages = _notices(dae, attributes, evaluator, conditions)
+        if method != "Newton":
+            messages.append(f"initial values found by {method}: Newton's method failed from the start values")
+        terminated = self._act()
+        modes.settle()
+        return Initialized(iterations, method, messages, terminated)
+
+    def _solve(self, system: ConsistentSystem) -> tuple[str, int]:
+        """Newton's method; where it fails, the ways around. Return which one led there, and its iterations."""
+        evaluator, modes, options = self._evaluator, self._modes, self._options
+        begin = Point.of(evaluator)
+
+        def attempt() -> Solved:
+            return _settled(system, modes, options)
+
+        solved = attempt()
+        iterations = solved.iterations
+        if not solved.reason:
+            return "Newton", iterations
+        error = (
+            self._unsettled() if solved.reason == UNSETTLED else failure(self._dae, evaluator, system, solved)
+        )
+        tried = []
+        for method in self._methods(system):
+            begin.restore(evaluator)
+            if method == "homotopy":
+                solved = homotopy(evaluator, attempt)
+            else:
+                rest = resting(self._dae, evaluator, system)
+                solved = pseudo_transient(evaluator, system, rest, modes, options, attempt)
+            iterations += solved.iterations
+            if not solved.reason:
+                return method, iterations
+            tried.append(f"{method}: {solved.reason}")
+        if tried:
+            error.cause = "; ".join([*([error.cause] if error.cause else []), *tried])
+        raise error
+
+    def _methods(self, system: ConsistentSystem) -> list[str]:
+        """The ways around that this model offers."""
+        rests = resting(self._dae, self._evaluator, system)[0].size > 0
+        return ["pseudo-transient"] * rests + ["homotopy"] * self._dae.blends
+
+    def _unsettled(self) -> InitializationError:
+        most = self._options.max_event_iterations
+        return InitializationError(
+            f"the relations do not settle in {most} iterations: {self._modes.last_changed()}", remedy=NEARER
+        )
+
+    def _act(self) -> str | None:
+        """Reinitialise what `when` clauses that name initial() say; return the message of their terminate()."""
+        message = None
+        for k, action in self._modes.initial_actions():
+            if action.kind == "state":
+                self._evaluator.y[action.index] = self._evaluator.when_values()[k]
+            elif action.kind == "terminate":
+                message = action.message
+        return message
+
+
+def _settled(system: ConsistentSystem, modes: Modes, options: SolverOptions) -> Solved:
+    """Solve until relations and discrete variables agree with the values."""
     iterations = 0
     for _ in range(options.max_event_iterations):
         solved = system.solve(options.newton_tolerance, options.newton_iterations)
         iterations += solved.iterations
-        if solved.reason:
-            raise failure(dae, evaluator, system, solved, NEARER)
-        changed = modes.assign_discrete() | modes.update()
-        if not changed:
-            break
-    else:
-        raise InitializationError(
-            f"the relations do not settle in {options.max_event_iterations} iterations: {modes.last_changed()}",
-            remedy=NEARER,
-        )
-    modes.settle()
-    _check_surplus(dae, evaluator, attributes, conditions)
-    return Initialized(iterations, _notices(dae, attributes, evaluator, conditions))
-
-
-def unknown_names(dae: DAE, system: ConsistentSystem) -> list[str]:
-    """Names of the system's unknowns, in order."""
-    free: list[int] = system.free.tolist()
-    states: list[int] = system.states.tolist()
-    return [dae.y_paths[j] for j in free] + [f"der({dae.y_paths[j]})" for j in states]
-
-
-def row_names(dae: DAE, system: ConsistentSystem) -> list[str]:
-    """Names of the system's rows, in order."""
-    conditions: list[int] = system.conditions.tolist()
-    return [*dae.row_labels, *(dae.init_labels[k] for k in conditions)]
-
-
-def failure(
-    dae: DAE, evaluator: Evaluator, system: ConsistentSystem, solved: Solved, remedy: str
-) -> InitializationError:
-    """What to tell the user when the equations at one instant are not solved."""
-    rows = row_names(dae, system)
-    residual = system.residual(system.unknowns()).copy()
-    bad = np.flatnonzero(~np.isfinite(residual))
-    if solved.reason == "not finite" or bad.size:
-        return InitializationError(
-            f"at t = {evaluator.t[0]:g} s these have no finite value: {listed([rows[i] for i in bad.tolist()], '; ')}",
-            cause=f"the values there are {_values(dae, evaluator, bad)}",
-            remedy=remedy,
-        )
-    matrix, scale = system.matrix(), system.scale()
-    scale = np.maximum(scale, np.abs(system.unknowns()))
-    if solved.reason == "singular":
-        unknowns, equations = null_vectors(matrix, scale)
-        names = unknown_names(dae, system)
-        return InitializationError(
-            f"singular Jacobian at t = {evaluator.t[0]:g} s: the equations do not determine "
-            f"{listed([names[j] for j in unknowns])}",
-            cause=f"these equations depend on each other: {listed([rows[i] for i in equations], '; ')}",
-            remedy="give the missing relation or initial condition, or remove what is said twice",
-        )
-    scaled = scaled_rows(matrix, residual, scale)
-    worst = np.argsort(-np.abs(scaled), kind="stable")[:5].tolist()
-    told = "; ".join(f"{rows[i]}: {residual[i]:.3g} (scaled {scaled[i]:.1g})" for i in worst)
-    return InitializationError(
-        f"no consistent values at t = {evaluator.t[0]:g} s after {solved.iterations} Newton iterations "
-        f"({solved.reason}); largest residuals: {told}",
-        remedy=remedy,
-    )
-
-
-def _values(dae: DAE, evaluator: Evaluator, rows: Index) -> str:
-    """The values of the unknowns in some rows of F; of all where there are none."""
-    columns = np.repeat(np.arange(dae.n), np.diff(dae.sparsity.colind))
-    present = np.unique(columns[np.isin(dae.sparsity.row, rows)])
-    chosen = present.tolist() or range(dae.n)
-    return listed([f"{dae.y_paths[j]} = {evaluator.y[j]:.6g}" for j in chosen])
-
-
-def _undetermined(dae: DAE, conditions: Conditions) -> InitializationError:
-    n = dae.n
-    names = [dae.y_paths[j] if j < n else f"der({dae.y_paths[j - n]})" for j in conditions.undetermined]
-    return InitializationError(
-        f"the equations and initial conditions determine nothing about {listed(names)}",
-        cause=_conflict(dae, conditions) if conditions.conflict else "",
-        remedy="give an initial condition for it, or remove one that says too much elsewhere",
-    )
-
-
-def _conflict(dae: DAE, conditions: Conditions) -> str:
-    n = dae.n
-    rows = [dae.init_labels[i - n] for i in conditions.conflict if i >= n]
-    return f"these initial conditions determine more than there is: {listed(rows, '; ')}"
-
-
-def _check_surplus(dae: DAE, evaluator: Evaluator, attributes: Attributes, conditions: Conditions) -> None:
-    """Initial conditions that were left out must hold in the solution."""
-    if not conditions.surplus:
-        return
-    values = evaluator.initial().copy()
-    scale = _initial_scale(dae, evaluator, attributes)
-    wrong = [k for k in conditions.surplus if not abs(values[k]) <= CONSISTENT * scale[k]]
-    if wrong:
-        told = "; ".join(f"{dae.init_labels[k]} (off by {values[k]:.6g})" for k in wrong)
-        raise InitializationError(
-            f"the initial conditions contradict each other: not fulfilled: {told}",
-            cause=_conflict(dae, conditions),
-            remedy="remove one of them, or replace a fixed start value by a guess",
-        )
-
-
-def _initial_scale(dae: DAE, evaluator: Evaluator, attributes: Attributes) -> FloatArray:
-    """Largest change that the unknowns' magnitudes make in each initial condition."""
-    row = np.asarray(dae.init_sparsity.row)
-    column = np.repeat(np.arange(2 * dae.n), np.diff(dae.init_sparsity.colind))
-    magnitude = np.maximum(np.abs(attributes.nominal), np.abs(evaluator.y))
-    scale = np.zeros(dae.n_init)
-    np.maximum.at(scale, row, np.abs(evaluator.initial_jacobian()) * np.tile(magnitude, 2)[column])
-    return scale
+        if solved.reason or not (modes.assign_discrete() | modes.update()):
+            return Solved(solved.w, solved.reason, iterations, solved.correction, solved.factors)
+    return Solved(system.unknowns(), UNSETTLED, iterations, np.inf)
 
 
 def _notices(dae: DAE, attributes: Attributes, evaluator: Evaluator, conditions: Conditions) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from arthur_acausal.solve.diagnosis import listed
-from arthur_acausal.solve.protocol import DAE, BoolArray, Evaluator, FloatArray
+from arthur_acausal.solve.protocol import DAE, Assignment, BoolArray, Evaluator, FloatArray
 
 
 class Modes:
@@ -16,6 +16,7 @@ class Modes:
         self._inclusive = np.array([r.inclusive for r in dae.relations], dtype=bool)
         kinds = dae.assignments
         self._always = [(k, a.index) for k, a in enumerate(kinds) if a.when < 0 and a.kind == "discrete"]
+        self._initial = [(k, a) for k, a in enumerate(kinds) if a.when >= 0 and dae.whens[a.when].initial]
         self._changed: list[int] = []
         self.conditions: BoolArray = np.zeros(len(dae.whens), dtype=bool)
 
@@ -34,17 +35,28 @@ class Modes:
         return bool(self._changed)
 
     def assign_discrete(self) -> bool:
-        """Evaluate the discrete equations that are always active until they agree; whether any value changed."""
+        """Evaluate the discrete equations that are active until they agree; whether any value changed."""
         evaluator = self._evaluator
         before = evaluator.z.copy()
-        for _ in range(len(self._always) + 1):
-            values = evaluator.when_values() if self._always else evaluator.z
+        active = self._always + [(k, a.index) for k, a in self.initial_actions() if a.kind == "discrete"]
+        for _ in range(len(active) + 1):
+            values = evaluator.when_values() if active else evaluator.z
             last = evaluator.z.copy()
-            for k, index in self._always:
+            for k, index in active:
                 evaluator.z[index] = values[k]
             if np.array_equal(last, evaluator.z):
                 break
         return not np.array_equal(before, evaluator.z)
+
+    def initial_actions(self) -> list[tuple[int, Assignment]]:
+        """What the `when` clauses that name initial() do at the present values, each with its number."""
+        if not self._initial:
+            return []
+        holds = self._evaluator.conditions() > 0.5
+        for k, when in enumerate(self._dae.whens):
+            if when.earlier and holds[k]:
+                holds[k] = not holds[k - when.earlier : k].any()
+        return [(k, a) for k, a in self._initial if holds[a.when]]
 
     def settle(self) -> None:
         """The instant is over: present values become the previous ones."""

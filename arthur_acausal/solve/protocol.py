@@ -48,6 +48,11 @@ class WhenClause(Protocol):
         """How many clauses before it are branches of the same `when`; one of them acting keeps it from acting."""
         ...
 
+    @property
+    def initial(self) -> bool:
+        """Whether its condition names initial(): then it acts at the start, too, where it holds."""
+        ...
+
 
 class SampledBlock(Protocol):
     """A function that is called periodically."""
@@ -201,6 +206,18 @@ class DAE(Protocol):
     def n_init(self) -> int: ...
     @property
     def init_labels(self) -> Sequence[str]: ...
+    @property
+    def blends(self) -> bool:
+        """Whether the last entry of p is the part of homotopy's actual expressions."""
+        ...
+
+    @property
+    def starting(self) -> DAE | None:
+        """The system that holds in place of this one while initial values are sought, where it is another.
+
+        It has the same y, z and m; its p may have one entry more.
+        """
+        ...
 
     def parameter_vector(
         self, overrides: Mapping[str, Any] | None = None, start: Mapping[str, Any] | None = None

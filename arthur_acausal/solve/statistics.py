@@ -25,6 +25,7 @@ class Statistics:
     restarts : how often integration started anew after an event; events that change no equation need none.
     events, state_events, time_events : instants at which something happened, and the two kinds.
     initial_iterations : Newton iterations of the initialisation.
+    initial_method : what found the initial values: "Newton", "pseudo-transient", "homotopy".
     event_iterations : Newton iterations of all events.
     load_s : wall time of loading IDA's and SciPy's libraries, s; once a process.
     initialize_s, integrate_s, events_s, output_s, total_s : wall time of the phases and of all, s.
@@ -44,6 +45,7 @@ class Statistics:
     state_events: int = 0
     time_events: int = 0
     initial_iterations: int = 0
+    initial_method: str = ""
     event_iterations: int = 0
     load_s: float = 0.0
     initialize_s: float = 0.0

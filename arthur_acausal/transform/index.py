@@ -24,6 +24,7 @@ _GLADLY = {
     "always": 1e-6,
 }  # a derivative is a dummy
 
+HELD = ("parameter", "discrete", "pre", "mode", "initial", "homotopy")  # constant between events
 LISTED = 12  # names in one message
 
 
@@ -125,7 +126,7 @@ def _differentiated(row: Row, nodes: Nodes, linear: LinearAnalysis, evaluator: E
     total = SX(0.0)
     for ref, own in list(symbols.items()):
         slope = ca.jacobian(value, own)
-        if slope.nnz() == 0 or ref.kind in ("parameter", "discrete", "pre", "mode"):
+        if slope.nnz() == 0 or ref.kind in HELD:
             continue
         if ref.kind == "input":
             raise StructureError(

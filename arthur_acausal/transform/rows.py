@@ -16,7 +16,9 @@ from arthur_acausal.flatten.system import FlatEquation, FlatSystem, Shift, shift
 from arthur_acausal.transform.alias import Aliases
 from arthur_acausal.transform.linear import Coefficient, LinearAnalysis
 
-RefKind: TypeAlias = Literal["node", "parameter", "input", "discrete", "pre", "mode", "time", "zero"]
+RefKind: TypeAlias = Literal[
+    "node", "parameter", "input", "discrete", "pre", "mode", "time", "zero", "initial", "homotopy"
+]
 
 
 class Ref(NamedTuple):
@@ -57,6 +59,7 @@ class Nodes:
             )
         self.all: list[Node] = []
         self.derivative: list[int] = []
+        self.start_only: set[str] = set()  # "initial", "homotopy": what distinguishes the start from the run
         self._number: dict[int, int] = {}
         for i, root in enumerate(aliases.root):
             if i == root and root not in self.inputs and root not in aliases.zero:
@@ -105,6 +108,8 @@ class Nodes:
                 return self.of_derivative(atom.number, text)
             case "parameter":
                 return Ref("parameter", self.flat.parameter(atom.number))
+            case "initial" | "homotopy":
+                self.start_only.add(atom.kind)
         return Ref(atom.kind, atom.number)
 
     def row(self, equation: FlatEquation) -> Row:

@@ -87,6 +87,7 @@ class When:
     actions: Sequence[tuple[str, Variable | None, Any]]
     where: str = "test.py:2"
     earlier: int = 0
+    initial: bool = False
 
 
 def reinit(x: Variable, value: Any) -> tuple[str, Variable | None, Any]:
@@ -156,6 +157,8 @@ class Handmade:
     samples: Sequence[Any] = ()
     parameters: Mapping[str, tuple[Any, float]] = field(default_factory=dict)
     name: str = "handmade"
+    starting: Handmade | None = None
+    blends: bool = False
 
     def __post_init__(self) -> None:
         self.ys = [v for v in self.variables if v.kind in ("state", "algebraic")]
