@@ -4,12 +4,22 @@ from arthur_acausal.components.hydraulic.accumulator import Accumulator
 from arthur_acausal.components.hydraulic.battery import BatteryDrive
 from arthur_acausal.components.hydraulic.check_valve import CheckValve
 from arthur_acausal.components.hydraulic.cylinder import Cylinder
+from arthur_acausal.components.hydraulic.displacement import HydraulicMotor, SpeedPump
 from arthur_acausal.components.hydraulic.filter import Filter, SignalFilter
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.gear_pump import GearPump
 from arthur_acausal.components.hydraulic.line import Line, LineSegment
 from arthur_acausal.components.hydraulic.motor import BrushlessMotor
 from arthur_acausal.components.hydraulic.orifice import Orifice, VariableOrifice
+from arthur_acausal.components.hydraulic.pilot_valves import (
+    CounterbalanceValve,
+    PilotCheckValve,
+    PressureReducingValve,
+    SequenceValve,
+    ShuttleValve,
+    SwitchedCheckValve,
+)
+from arthur_acausal.components.hydraulic.piston import Piston
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
 from arthur_acausal.components.hydraulic.pump_scaling import (
     GPM,
@@ -31,6 +41,8 @@ from arthur_acausal.components.hydraulic.sources import (
     FlowSource,
     PressureSource,
 )
+from arthur_acausal.components.hydraulic.spool import CentreEdge, MeteringEdge, Spool
+from arthur_acausal.components.hydraulic.spool_valves import OpenCentreValve, Valve22, Valve33, Valve43
 from arthur_acausal.components.hydraulic.tank import Tank
 from arthur_acausal.components.hydraulic.two_port import TwoPort
 from arthur_acausal.components.hydraulic.volume import Volume
@@ -42,9 +54,11 @@ __all__ = [
     "Accumulator",
     "BatteryDrive",
     "BrushlessMotor",
+    "CentreEdge",
     "CheckValve",
     "ControlledFlowSource",
     "ControlledPressureSource",
+    "CounterbalanceValve",
     "Cylinder",
     "Filter",
     "FlowSensor",
@@ -52,23 +66,37 @@ __all__ = [
     "Fluid",
     "GasReservoir",
     "GearPump",
+    "HydraulicMotor",
     "HydraulicPort",
     "LaminarPipe",
     "Line",
     "LineSegment",
     "LinearResistance",
+    "MeteringEdge",
+    "OpenCentreValve",
     "Orifice",
+    "PilotCheckValve",
     "Pipe",
+    "Piston",
     "PressureDifferenceSensor",
+    "PressureReducingValve",
     "PressureSensor",
     "PressureSource",
     "PumpSize",
     "Ram",
     "ReliefValve",
+    "SequenceValve",
     "ServoValve",
+    "ShuttleValve",
     "SignalFilter",
+    "SpeedPump",
+    "Spool",
+    "SwitchedCheckValve",
     "Tank",
     "TwoPort",
+    "Valve22",
+    "Valve33",
+    "Valve43",
     "VariableOrifice",
     "Volume",
     "WaveLine",

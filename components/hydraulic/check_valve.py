@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from casadi import sqrt
+from casadi import SX, sqrt
 
 from arthur_acausal import Equations, Real, parameter, variable
 from arthur_acausal.components.hydraulic.laws import clamp, turbulent_root
@@ -26,9 +26,16 @@ class CheckValve(TwoPort):
     dp_small: Real = parameter("Pa", default=1e3, min=0.0)
     opening: Real = variable("1", description="0 (closed) to 1 (fully open)")
 
+    def lift(self) -> SX:
+        """Return the pressure [Pa] that lifts the poppet."""
+        return self.dp
+
+    def area(self) -> SX:
+        """Return the area [m^2] that is open."""
+        return self.A_leak + (self.A_max - self.A_leak) * self.opening
+
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.opening == clamp((self.dp - self.dp_crack) / (self.dp_open - self.dp_crack), 0, 1)
-        area = self.A_leak + (self.A_max - self.A_leak) * self.opening
+        yield self.opening == clamp((self.lift() - self.dp_crack) / (self.dp_open - self.dp_crack), 0, 1)
         root = turbulent_root(self.dp, self.dp_small)
-        yield "orifice law", self.q == self.C_d * area * sqrt(2 / self.fluid.rho) * root
+        yield "orifice law", self.q == self.C_d * self.area() * sqrt(2 / self.fluid.rho) * root

@@ -4,6 +4,7 @@ from arthur_acausal.components.translational.elements import (
     Compliant,
     Damper,
     Fixed,
+    Lever,
     Mass,
     Rod,
     SlidingMass,
@@ -31,7 +32,7 @@ from arthur_acausal.components.translational.sources import (
     QuadraticForce,
     SpeedSource,
 )
-from arthur_acausal.components.translational.stops import ElastoGap, EndStops
+from arthur_acausal.components.translational.stops import ElastoGap, EndStops, StoppedMass
 
 __all__ = [
     "AccelerationSensor",
@@ -47,6 +48,7 @@ __all__ = [
     "Flange",
     "ForceSensor",
     "ForceSource",
+    "Lever",
     "LoadForce",
     "Mass",
     "MassWithFriction",
@@ -62,5 +64,6 @@ __all__ = [
     "SpeedSource",
     "Spring",
     "SpringDamper",
+    "StoppedMass",
     "SupportFriction",
 ]

@@ -59,6 +59,18 @@ class Rod(Component):
         yield self.flange_a.f + self.flange_b.f == 0
 
 
+class Lever(Component):
+    """A massless lever: flange_b moves ``ratio`` [1] times as far as flange_a, the other way where it is negative."""
+
+    flange_a = Flange()
+    flange_b = Flange()
+    ratio: Real = parameter("1", default=-1.0)
+
+    def equations(self) -> Equations:
+        yield self.flange_b.s == self.ratio * self.flange_a.s
+        yield "balance of torques", self.flange_a.f + self.ratio * self.flange_b.f == 0
+
+
 class Compliant(Component):
     """What all massless elements between two flanges share: ``s_rel`` [m], the elongation, and one force [N].
 

@@ -4,7 +4,18 @@ from __future__ import annotations
 
 import casadi
 
-from arthur_acausal import Component, Equations, Real, der, if_else, parameter, variable
+from arthur_acausal import (
+    Component,
+    Equations,
+    Real,
+    der,
+    discrete,
+    if_else,
+    parameter,
+    reinit,
+    variable,
+    when,
+)
 from arthur_acausal.components.translational.elements import Compliant
 from arthur_acausal.components.translational.flange import Flange
 
@@ -62,3 +73,36 @@ class EndStops(Component):
         size = casadi.fabs(spring)
         yield "stops", self.f == -(spring + casadi.fmin(casadi.fmax(wanted, -size), size))
         yield self.flange.f + self.f == 0
+
+
+class StoppedMass(Component):
+    """A sliding mass between two rigid stops, at which it comes to rest without rebound.
+
+    States: ``s`` [m], ``v`` [m/s]. m v' = f until s passes ``s_min`` or ``s_max`` [m]; there v becomes 0, an event,
+    and the stop holds the mass until the force pulls it away. ``stop`` [1]: -1 at the lower stop, 1 at the upper one,
+    0 between. The kinetic energy at the impact is lost (plastic impact). Starts between the stops.
+    """
+
+    flange = Flange()
+    m: Real = parameter("kg", min=0.0, description="mass")
+    s_min: Real = parameter("m")
+    s_max: Real = parameter("m")
+    s: Real = variable("m", start=0.0, description="position", state_select="always")
+    v: Real = variable("m/s", start=0.0, description="velocity", state_select="always")
+    stop: Real = discrete("1", description="-1, 1 at a stop, 0 between")
+    f_stop: Real = variable("N", description="force of the stops")
+
+    def equations(self) -> Equations:
+        f = self.flange.f
+        yield self.s == self.flange.s
+        yield self.v == der(self.s)
+        yield "Newton's second law", self.m * der(self.v) == f + self.f_stop
+        yield "stops", self.f_stop == -casadi.fabs(self.stop) * f
+        low = casadi.logic_and(self.s < self.s_min, self.v < 0)
+        high = casadi.logic_and(self.s > self.s_max, self.v > 0)
+        away = self.stop * f < 0
+        yield (
+            when(low, self.stop == -1, reinit(self.v, 0))
+            .elsewhen(high, self.stop == 1, reinit(self.v, 0))
+            .elsewhen(away, self.stop == 0)
+        )

@@ -46,6 +46,8 @@ OPTIONS = [
     hydraulic.Volume(V=1e-3, fluid=hydraulic.Fluid(cavitation=True)),
     hydraulic.Line(L=1.0, d=0.01, friction="turbulent", volume_a=True),
     hydraulic.Line(L=1.0, d=0.01, friction="none", volume_b=True),
+    hydraulic.Spool(switched=True),
+    hydraulic.CounterbalanceValve(A_max=1e-5, p_set=1e7, vented=True),
     hydraulic.WaveLine(T=0.1, Z_c=1e9, friction=True, R=1e7, wall=True, R_wall=1e6),
     blocks.TimeTable(times=(0.0, 1.0), values=(0.0, 1.0), events=True),
     *(blocks.LimPID(controller=kind, y_max=1.0) for kind in ("P", "PI", "PD", "PID")),
