@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import re
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
@@ -22,6 +23,7 @@ from numpy.typing import NDArray
 
 from arthur_acausal import ArthurError, SimulationError, SolverOptions, translate
 from arthur_acausal.models.conformance.case import Case
+from arthur_acausal.models.conformance.hopsan import Assembly, Reader
 from benchmarks.chains import cascaded_first_order, harmonic_oscillator, many_events
 from benchmarks.hydraulics import SOLVERS as HYDRAULIC
 from benchmarks.text_problem import TextError, problem
@@ -32,6 +34,7 @@ TIGHT = SolverOptions(rtol=1e-11, intervals=10, max_steps=1_000_000)
 VALUE_TUBE, TIME_TUBE = 1e-3, 2e-3  # shares of a signal's range and of the time span
 LIBRARY = ("blocks", "electrical", "mechanics", "rotational", "thermal", "translational")
 NOT_BUILT = "not built"
+Tube = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,10 +87,16 @@ def tube(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
     return shares[worst], f"worst: {worst}" if shares[worst] else model.note
 
 
-def out_of_tube(times: FloatArray, values: FloatArray, t: FloatArray, own: FloatArray) -> float:
+def out_of_tube(
+    times: FloatArray,
+    values: FloatArray,
+    t: FloatArray,
+    own: FloatArray,
+    tube: Tube = (VALUE_TUBE, TIME_TUBE),
+) -> float:
     """Return the share of the reference's samples that our curve, within the time tube, does not come near."""
-    span = TIME_TUBE * (times[-1] - times[0])
-    room = VALUE_TUBE * max(float(np.ptp(values)), np.finfo(float).tiny)
+    span = tube[1] * (times[-1] - times[0])
+    room = tube[0] * max(float(np.ptp(values)), np.finfo(float).tiny)
     near = max(room, 1e-12 * float(np.max(np.abs(values), initial=0.0)))
     first, last = np.searchsorted(t, times - span), np.searchsorted(t, times + span, side="right")
     outside = 0
@@ -96,6 +105,33 @@ def out_of_tube(times: FloatArray, values: FloatArray, t: FloatArray, own: Float
         part = np.concatenate([ends, own[first[k] : last[k]]])
         outside += not (part.min() - near <= value <= part.max() + near)
     return outside / len(values)
+
+
+def hopsan(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
+    """Simulate components of Hopsan, connected as the case says; the largest share of samples out of the tube."""
+    reader = Reader(case)
+    begin, end = (float(case["simulation"][key]) for key in ("start", "stop"))
+    table = np.loadtxt(folder / case["reference"]["file"], delimiter=",", ndmin=2)
+    if table.shape[0] < table.shape[1]:
+        table = table.T  # one line a signal
+    options = SolverOptions(rtol=1e-7, intervals=2000)
+    solution = translate(Assembly(plan=reader.plan)).simulate(end, start_time=begin, options=options)
+    shares = {}
+    for signal in case["reference"]["signals"]:
+        path, sign = reader.path(signal["name"])
+        times, values = table[:, signal["timecolumn"]], table[:, signal["column"]]
+        own = sign * np.asarray(solution[path])
+        shares[signal["name"]] = out_of_tube(times, values, np.asarray(solution.t), own, tube_of(case))
+    worst = max(shares, key=shares.__getitem__)
+    return shares[worst], f"worst: {worst}" if shares[worst] else ""
+
+
+def tube_of(case: Mapping[str, Any]) -> Tube:
+    """Return the tube that a case's measure names."""
+    found = re.search(r"tube of (\S+) of the range and (\S+) of the time span", case["required"]["measure"])
+    if found is None:
+        raise TextError(f"no tube in the measure: {case['required']['measure']}")
+    return float(found[1]), float(found[2])
 
 
 def read_reference(file: Path) -> tuple[FloatArray, dict[str, FloatArray]]:
@@ -151,6 +187,8 @@ def solver_of(case: Mapping[str, Any]) -> Callable[[Mapping[str, Any], Path], tu
     for beginning, solve in HYDRAULIC.items():
         if case["name"].startswith(beginning):
             return solve
+    if case["name"].startswith("hopsan_"):
+        return hopsan
     return tube if case["name"] in library_cases() else None
 
 

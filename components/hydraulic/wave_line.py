@@ -24,11 +24,15 @@ class _Delay:
         return _Delay(self.n)
 
     def __call__(self, t: float, inputs: Any) -> list[float]:
-        """Take the two waves that leave; return those of ``n`` samples ago, at first those that arrive already."""
+        """Take the waves that have left since the last sample, and return those that arrive until the next one.
+
+        What left from k - 1 to k arrives from n + k - 1 to n + k; until then, what arrives already goes on.
+        """
         from_a, from_b, *arriving = (float(x) for x in inputs)
-        if not self.waves:
+        if self.waves:
+            self.waves.append([from_a, from_b])
+        else:
             self.waves.extend(arriving for _ in range(self.n))
-        self.waves.append([from_a, from_b])
         return self.waves.popleft()
 
 
