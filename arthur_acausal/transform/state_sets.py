@@ -77,19 +77,18 @@ def _pivots(matrix: FloatArray) -> tuple[list[int], FloatArray]:
     """Return the columns in the order of QR with column pivoting, and the diagonal of R."""
     rest = matrix.copy()
     order: list[int] = []
-    diagonal = []
-    free = list(range(matrix.shape[1]))
+    diagonal: list[float] = []
     for _ in range(min(matrix.shape)):
-        norms = [float(rest[:, k] @ rest[:, k]) for k in free]
-        best = free[int(np.argmax(norms))]
-        size = float(np.sqrt(max(norms)))
+        norms = np.einsum("ij,ij->j", rest, rest)
+        norms[order] = -1.0
+        best = int(np.argmax(norms))
+        size = float(np.sqrt(norms[best]))
         order.append(best)
         diagonal.append(size)
-        free.remove(best)
         if size > 0.0:
             q = rest[:, best] / size
-            rest = rest - np.outer(q, q @ rest)
-    return order + free, np.array(diagonal)
+            rest -= np.outer(q, q @ rest)
+    return order + [k for k in range(matrix.shape[1]) if k not in order], np.array(diagonal)
 
 
 def state_sets(

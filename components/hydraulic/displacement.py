@@ -50,11 +50,11 @@ class Displacing(Component):
 
 
 class SpeedPump(Displacing):
-    """A pump turned at the speed of the signal ``w`` [rad/s]: q = D setting w/(2 pi), less leakage (Merritt 1967, ch. 4).
+    """A pump turned at the speed of a signal: q = D setting w/(2 pi), less leakage (Merritt 1967, ch. 4).
 
-    port_a is the suction side for a positive flow. Where the pressure there falls to ``p_fill`` [Pa] the pump fills
-    only in part, and not at all at zero pressure, so that it never draws a vacuum. ``P`` [W]: power given to the
-    fluid. Either direction.
+    ``w`` [rad/s]. port_a is the suction side for a positive flow. Where the pressure there falls to ``p_fill`` [Pa]
+    the pump fills only in part, and not at all at zero pressure, so that it never draws a vacuum. ``P`` [W]: power
+    given to the fluid. Either direction.
     """
 
     w: Real = real_input("rad/s", default=0.0, display="rpm")

@@ -19,6 +19,13 @@ QUANTITIES = {"Pressure": "p", "Flow": "q", "Position": "s", "Angle": "phi"}
 """Quantities of a node of Hopsan -> of our connectors."""
 OUTPUTS = frozenset({"out", "y", "xv", "Va", "pa"})
 """Names of output variables; all other variables take signals in."""
+MEASURED = {
+    "FlowSensor": "Flow",
+    "PressureSensor": "Pressure",
+    "PositionSensor": "Position",
+    "SpeedSensor": "Velocity",
+}
+"""Sensors -> what they measure."""
 STARTS = ("Pressure", "Position", "Velocity", "Angle", "AngularVelocity")
 
 End = tuple[str, str]
@@ -102,8 +109,13 @@ class Reader:
         return port in ports
 
     def add_parts(self) -> None:
-        """Put a part into the plan for each component."""
+        """Put a part into the plan for each component that is connected."""
+        joined = {name for node in self.nodes for name, _ in node} | {name for name, _ in self.signal_ends}
         for name, kind in self.types.items():
+            if kind not in SINKS and kind != FLOW_SENSOR:
+                self.counterpart(name)  # what is not known is refused, connected or not
+            if name not in joined:
+                continue
             if kind == FLOW_SENSOR:
                 self.plan.parts[own_name(name)] = self.flow_sensor
             elif kind not in SINKS:
@@ -197,6 +209,14 @@ class Reader:
             raise UsageError(f"no variable is known for {signal}")
         sign = -1.0 if quantity == "Flow" and not part.stores else 1.0
         return f"{own_name(name)}.{part.ports[variable]}.{QUANTITIES[quantity]}", sign
+
+    def before(self, signal: str) -> float | None:
+        """Return the start value that the case states for a sensor's node, which Hopsan logs before its first step."""
+        name = signal.rpartition("$")[2].split("#")[0]
+        for measured, quantity in MEASURED.items():
+            if measured in self.types[name]:
+                return number(self.values[name].get(f"P1#{quantity}", 0.0), f"{name}.P1#{quantity}")
+        return None
 
 
 def nodes_of(links: list[tuple[End, End]]) -> Iterator[list[End]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import sqrt
 from typing import Any
 
 from arthur_acausal import UsageError
@@ -63,4 +64,4 @@ class Given:
 
     def discharge(self, C_q: float, rho: float) -> float:
         """Return the discharge coefficient that gives the flow of ``C_q`` with the density ``rho`` [kg/m^3]."""
-        return C_q * (RHO / rho) ** 0.5
+        return C_q * sqrt(RHO / rho)

@@ -17,6 +17,7 @@ from arthur_acausal.components.hydraulic import (
     HydraulicMotor,
     HydraulicPort,
     LinearResistance,
+    LineSegment,
     Piston,
     Volume,
 )
@@ -107,6 +108,29 @@ class FourChambers(RodOfCylinder):
         for leak, (one, other, _) in zip(self.leak, self.leaks, strict=True):
             yield connect(ports[one], leak.port_a)
             yield connect(leak.port_b, ports[other])
+
+
+class LineVolume(Component):
+    """A volume between two ports as Hopsan's transmission line of one time step: two halves, and the line's inertance.
+
+    That inertance, beta step^2/V, is the reference's, not the oil's: a piston of area A beside the volume is heavier
+    by A^2 times as much. ``bypass`` damps the ringing of the halves, as Hopsan's filter does.
+    """
+
+    port_a = HydraulicPort()
+    port_b = HydraulicPort()
+    fluid: Fluid = Fluid()
+    half_a: Volume = Volume(V=1e-3)
+    half_b: Volume = Volume(V=1e-3)
+    segment: LineSegment = LineSegment(L=1.0, d=0.01, friction="none")
+    bypass: LinearResistance = LinearResistance(R=1e9)
+
+    def equations(self) -> Equations:
+        yield connect(self.port_a, self.half_a.port)
+        yield connect(self.port_b, self.half_b.port)
+        for between in self.segment, self.bypass:
+            yield connect(self.half_a.port, between.port_a)
+            yield connect(between.port_b, self.half_b.port)
 
 
 class GasAccumulator(Component):
