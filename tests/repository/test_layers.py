@@ -33,21 +33,26 @@ LAYERS = (
     "mujoco",
     "models",
     "request",
+    "sweep",
     "cli",
 )
 
 # Libraries that cost a noticeable time to import or open windows, and the layers built upon them. Everybody
 # else imports them inside the function that needs them; so do these layers where they are imported early.
 HEAVY = {
+    "distributed": set[str](),
     "matplotlib": {"result"},
     "mujoco": {"mujoco"},
     "pandas": {"result"},
     "pint": set[str](),
     "rich": {"cli"},
+    "psutil": set[str](),
+    "pydantic": {"sweep"},
     "scipy": {"solve"},
     "sksundae": {"solve"},
     "typer": {"cli"},
     "xarray": {"result"},
+    "zarr": set[str](),
 }
 
 

@@ -1,0 +1,154 @@
+"""The commands of `arthur` that concern many runs, and their options."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from arthur_acausal.cli.app import Debug, Input, Json, Set, Start, app
+from arthur_acausal.cli.failure import reported
+
+__all__ = ["app"]
+
+Many = list[str] | None
+
+
+@app.command()
+@reported
+def sweep(
+    model: Annotated[
+        str, typer.Argument(metavar="MODEL|FILE.toml", help="A model, or a file that specifies the sweep.")
+    ],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where the results are kept.")
+    ] = None,
+    vary: Annotated[
+        Many,
+        typer.Option(
+            "--vary",
+            metavar="PATH=VALUES",
+            help="1bar:2bar:5, 1:2/step=0.1, a,b,c, uniform(1, 2), csv(f.csv:col). Repeatable.",
+        ),
+    ] = None,
+    zipped: Annotated[
+        Many,
+        typer.Option("--zip", metavar="PATH,PATH", help="Factors of a grid that vary together. Repeatable."),
+    ] = None,
+    derive: Annotated[
+        Many,
+        typer.Option(
+            "--derive", metavar="PATH=EXPRESSION", help="A parameter from others, in SI. Repeatable."
+        ),
+    ] = None,
+    method: Annotated[
+        str | None, typer.Option(metavar="METHOD", help="grid (default), zip, random, lhs or sobol.")
+    ] = None,
+    samples: Annotated[
+        int | None, typer.Option(metavar="N", help="How many, for random, lhs and sobol.")
+    ] = None,
+    seed: Annotated[int | None, typer.Option(metavar="N", help="Of the samples and replicates.")] = None,
+    replicates: Annotated[
+        int | None, typer.Option(metavar="N", help="Repetitions of each run with seed, seed + 1, ...")
+    ] = None,
+    seed_parameter: Annotated[
+        str | None, typer.Option(metavar="PATH", help="The parameter that is given the seed.")
+    ] = None,
+    stop: Annotated[
+        str | None, typer.Option("-t", "--stop-time", metavar="TIME", help="s, or with a unit (200ms).")
+    ] = None,
+    settings: Set = None,
+    inputs: Input = None,
+    starts: Start = None,
+    rtol: Annotated[
+        float | None, typer.Option(metavar="TOL", help="Relative tolerance; default 1e-6.")
+    ] = None,
+    keep: Annotated[
+        Many, typer.Option("--keep", metavar="PATH", help="A variable or pattern to keep. Repeatable.")
+    ] = None,
+    reduce: Annotated[
+        Many,
+        typer.Option(
+            "--reduce",
+            metavar="REDUCTION",
+            help="max(x), quantile(x, 0.95), first(x > 1), module:function. Repeatable.",
+        ),
+    ] = None,
+    interval: Annotated[
+        str | None, typer.Option(metavar="TIME", help="Of the trajectories; default 10 ms.")
+    ] = None,
+    trajectories: Annotated[
+        bool, typer.Option("--trajectories/--no-trajectories", help="Keep trajectories, or reductions only.")
+    ] = True,
+    workers: Annotated[
+        int | None, typer.Option("-j", "--jobs", metavar="N", help="Processes; default: one a core.")
+    ] = None,
+    scheduler: Annotated[
+        str,
+        typer.Option(metavar="ADDRESS", help="A Dask scheduler (tcp://HOST:PORT), or local-dask."),
+    ] = "",
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with what is in the directory.")] = False,
+    timeout: Annotated[
+        float | None, typer.Option(metavar="S", help="Wall time that a run may take, s.")
+    ] = None,
+    retry: Annotated[int, typer.Option(metavar="N", help="Further attempts where a worker dies.")] = 2,
+    shard: Annotated[
+        str | None, typer.Option(metavar="I/N", help="Only every N-th run, from the I-th on.")
+    ] = None,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Show the runs and what they will take; run one.")
+    ] = False,
+    yes: Annotated[bool, typer.Option("--yes", help="Confirm more than 10 GB.")] = False,
+    as_json: Json = False,
+    debug: Debug = False,
+) -> None:
+    """Run many variants of a model and keep them: one machine's cores, or a Dask cluster."""
+    from arthur_acausal.cli.sweep import Request
+    from arthur_acausal.cli.sweep import sweep as carry_out
+
+    scalars = {"method": method, "samples": samples, "seed": seed, "stop_time": stop, "tolerance": rtol}
+    text, any_ok = carry_out(
+        Request(
+            model=model,
+            output=output,
+            vary=vary or (),
+            zip=zipped or (),
+            derive=derive or (),
+            settings=settings or (),
+            inputs=inputs or (),
+            starts=starts or (),
+            keep=keep or (),
+            reduce=reduce or (),
+            scalars=scalars,
+            interval=interval,
+            trajectories=trajectories,
+            replicates=replicates,
+            seed_parameter=seed_parameter,
+            workers=workers,
+            scheduler=scheduler,
+            resume=resume,
+            timeout=timeout,
+            retry=retry,
+            shard=shard,
+            dry_run=dry_run,
+            yes=yes,
+            as_json=as_json,
+        )
+    )
+    typer.echo(text)
+    if not any_ok:
+        raise typer.Exit(1)
+
+
+@app.command()
+@reported
+def merge(
+    folders: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Shards of one sweep.")],
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Where all runs go.")],
+    debug: Debug = False,
+) -> None:
+    """Put the shards of a sweep together."""
+    from arthur_acausal.cli.sweep import merge as carry_out
+
+    typer.echo(carry_out(folders, output))

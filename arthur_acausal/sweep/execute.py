@@ -1,0 +1,166 @@
+"""One run, the same on whatever worker: nothing of an earlier run is left in it."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from time import perf_counter, process_time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arthur_acausal.errors import ArthurError
+from arthur_acausal.sweep.job import Job, Signal, Values
+
+if TYPE_CHECKING:
+    from arthur_acausal.codegen.compiled import CompiledDAE
+    from arthur_acausal.result.solution import Solution
+
+KEPT_SYSTEMS = 8  # that a worker has loaded at a time
+COUNTS = ("steps", "rejected_steps", "residual_evaluations", "jacobian_evaluations", "events")
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of a run.
+
+    ``status``: "ok", "terminated" (the model ended it), "failed", "timeout" or "crashed"; ``error``: the message;
+    ``trajectory`` (times, variables), NaN where it did not get to; seconds of wall and of CPU.
+    """
+
+    status: str
+    error: str = ""
+    end_time: float = math.nan
+    reductions: Mapping[str, float] = field(default_factory=dict)
+    statistics: Mapping[str, int] = field(default_factory=dict)
+    trajectory: NDArray[np.float64] | None = None
+    wall_s: float = 0.0
+    cpu_s: float = 0.0
+    engine: str = "ida"
+    platform: str = ""
+
+
+class _Described:
+    """Stands for a model that is not here: what `describe_run` asks of it."""
+
+    def __init__(self, description: str, terms: Mapping[str, Any]) -> None:
+        self.__doc__, self._terms = description, terms
+
+    def audit_terms(self) -> Mapping[str, Any]:
+        return self._terms
+
+
+class _TimeUp(KeyboardInterrupt):
+    """Ends a run as Ctrl-C does: what was computed is kept."""
+
+
+def execute(job: Job, values: Values, timeout: float | None = None) -> Outcome:
+    """Simulate once and reduce. Never raises for what a run may do wrong: that is an outcome, too.
+
+    ``timeout``: s of wall time, looked at about ten times a second.
+    """
+    system_of(job)  # so that no run's time is that of loading
+    wall, cpu = perf_counter(), process_time()
+
+    def watch(_: float) -> None:
+        if timeout is not None and perf_counter() - wall > timeout:
+            raise _TimeUp
+
+    try:
+        solution, status, error = _simulate(job, values, watch)
+        if status == "timeout":
+            error = f"stopped after {timeout:g} s of wall time"
+        outcome = _reduced(job, solution, status, error)
+    except ArthurError as failed:
+        outcome = Outcome("failed", str(failed))
+    except Exception as failed:  # of the user's own functions
+        outcome = Outcome("failed", f"{type(failed).__name__}: {failed}")
+    return _timed(outcome, perf_counter() - wall, process_time() - cpu)
+
+
+def _timed(outcome: Outcome, wall_s: float, cpu_s: float) -> Outcome:
+    from arthur_acausal.codegen.cache import make_key
+
+    return replace(outcome, wall_s=wall_s, cpu_s=cpu_s, platform=make_key()[:12])
+
+
+def _simulate(job: Job, values: Values, watch: Callable[[float], None]) -> tuple[Solution | None, str, str]:
+    from arthur_acausal.errors import SimulationError
+    from arthur_acausal.result.simulated import Interrupted, run
+    from arthur_acausal.solve.options import SolverOptions
+
+    inputs = {path: _signal(value) for path, value in {**job.inputs, **values.inputs}.items()}
+    try:
+        solution = run(
+            system_of(job),
+            _Described(job.description, job.audit),
+            start_time=job.start_time,
+            stop_time=job.stop_time,
+            options=SolverOptions(rtol=job.tolerance, output_interval=job.resolution),
+            parameters={**job.parameters, **values.parameters},
+            inputs=inputs,
+            start={**job.start, **values.start},
+            progress=watch,
+        )
+    except SimulationError as error:
+        return error.solution, "failed", str(error)
+    except Interrupted as stopped:
+        return stopped.solution, "timeout", ""
+    if solution.run.status == "terminated":
+        return solution, "terminated", solution.run.message
+    return solution, "ok", ""
+
+
+def _signal(value: float | Signal) -> Any:
+    from arthur_acausal.solve.table import Table
+
+    if isinstance(value, Signal):
+        return Table(np.array(value.times), np.array(value.values), source=value.source)
+    return value
+
+
+_LOADED: dict[str, CompiledDAE] = {}
+
+
+def system_of(job: Job) -> CompiledDAE:
+    """Return the job's compiled system; each process loads it once."""
+    import arthur_acausal.result.simulated  # noqa: F401  # loaded here, not in the first run
+    from arthur_acausal.codegen.portable import from_bytes
+    from arthur_acausal.solve.ida import load_ida
+
+    if job.digest not in _LOADED:
+        for folder in job.folders:
+            if folder not in sys.path:
+                sys.path.insert(0, folder)
+        while len(_LOADED) >= KEPT_SYSTEMS:
+            del _LOADED[next(iter(_LOADED))]
+        _LOADED[job.digest] = from_bytes(job.system, trusted=job.trusted)
+        load_ida()
+    return _LOADED[job.digest]
+
+
+def _reduced(job: Job, solution: Solution | None, status: str, error: str) -> Outcome:
+    if solution is None or not solution.t.size:
+        return Outcome(status, error)
+    columns: dict[str, float] = {}
+    trajectory = None
+    if status == "ok" or status == "terminated":
+        for reduction in job.reductions:
+            columns |= reduction.of(solution)
+    if job.variables:
+        trajectory = on_grid(job.grid, solution, job.variables)
+    counts = {name: int(getattr(solution.statistics, name)) for name in COUNTS}
+    return Outcome(status, error, float(solution.t[-1]), columns, counts, trajectory)
+
+
+def on_grid(grid: NDArray[np.float64], solution: Solution, paths: tuple[str, ...]) -> NDArray[np.float64]:
+    """Return the values (times, variables) on a grid, NaN behind the solution's end; at an event those after it."""
+    reached = grid <= solution.t[-1] * (1.0 + 1e-12)
+    values = np.full((grid.size, len(paths)), np.nan)
+    inside = np.clip(grid[reached], solution.t[0], solution.t[-1])
+    for column, path in enumerate(paths):
+        values[reached, column] = solution.at(inside, path)
+    return values

@@ -1,0 +1,107 @@
+"""What travels to a worker, once for each structure: the compiled system and what every run of it shares."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from arthur_acausal.sweep.reductions import Reduction
+
+
+@dataclass(frozen=True)
+class Signal:
+    """An external input over time: ``values`` at ``times`` [s], linear in between."""
+
+    times: tuple[float, ...]
+    values: tuple[float, ...]
+    source: str
+
+
+@dataclass(frozen=True)
+class Job:
+    """One structure of one model, as its runs need it.
+
+    Attributes
+    ----------
+    system : the compiled system, see `arthur_acausal.codegen.portable`.
+    description, audit : one line about the model, and its energy audit's terms.
+    start_time, stop_time : s.
+    tolerance : relative.
+    interval, resolution : of the trajectories kept, and of the instants that reductions look at, s.
+    variables : paths whose trajectories are kept.
+    reductions : columns of the table.
+    parameters, inputs, start : fixed values by path, SI; inputs may be signals.
+    trusted : modules of the user that sampled functions and reductions may come from.
+    folders : where these modules are found.
+    """
+
+    system: bytes = field(repr=False)
+    description: str
+    audit: Mapping[str, Any]
+    start_time: float
+    stop_time: float
+    tolerance: float
+    interval: float
+    resolution: float
+    variables: tuple[str, ...]
+    reductions: tuple[Reduction, ...]
+    parameters: Mapping[str, float]
+    inputs: Mapping[str, float | Signal]
+    start: Mapping[str, float]
+    trusted: tuple[str, ...] = ()
+    folders: tuple[str, ...] = ()
+
+    @cached_property
+    def grid(self) -> NDArray[np.float64]:
+        """The times of the trajectories that are kept, s."""
+        count = max(1, round((self.stop_time - self.start_time) / self.interval))
+        return np.linspace(self.start_time, self.stop_time, count + 1)
+
+    @cached_property
+    def settings(self) -> str:
+        """All but the system, as JSON."""
+        data = asdict(self)
+        del data["system"]
+        return json.dumps(data, sort_keys=True)
+
+    @cached_property
+    def digest(self) -> str:
+        """What the job is known by: a hash of its content."""
+        return hashlib.sha256(self.system + self.settings.encode()).hexdigest()
+
+    @classmethod
+    def restored(cls, system: bytes, settings: str) -> Job:
+        """Return the job again from what `system` and `settings` gave."""
+        data = json.loads(settings)
+        data["variables"] = tuple(data["variables"])
+        data["reductions"] = tuple(Reduction(**r) for r in data["reductions"])
+        data["trusted"], data["folders"] = tuple(data["trusted"]), tuple(data["folders"])
+        data["inputs"] = {path: _input(value) for path, value in data["inputs"].items()}
+        return cls(system=system, **data)
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """What one run has of its own, by path, in SI."""
+
+    parameters: Mapping[str, float]
+    inputs: Mapping[str, float | Signal] = field(default_factory=dict)
+    start: Mapping[str, float] = field(default_factory=dict)
+
+
+def _input(value: Any) -> float | Signal:
+    if not isinstance(value, Mapping):
+        return float(value)
+    return Signal(tuple(value["times"]), tuple(value["values"]), value["source"])
+
+
+def names_of(reductions: Sequence[Reduction]) -> list[str]:
+    """Return the columns that are known before any run; functions add theirs."""
+    return [r.name for r in reductions if r.kind != "function"]

@@ -1,0 +1,261 @@
+"""From a specification to what each run needs: models translated once for each structure, values in SI."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from arthur_acausal.errors import UsageError, nearest
+from arthur_acausal.sweep import derived
+from arthur_acausal.sweep.design import Run, runs
+from arthur_acausal.sweep.factor import Value, inside
+from arthur_acausal.sweep.job import Job, Signal, Values
+from arthur_acausal.sweep.reductions import parse
+from arthur_acausal.sweep.specification import Output, Specification
+from arthur_acausal.sweep.task import Task
+from arthur_acausal.units import to_si
+
+if TYPE_CHECKING:
+    from arthur_acausal.api import Translation
+
+FINER = 10  # instants that reductions look at, for each one whose trajectory is kept
+MOST_OUTPUTS = 24  # variables that are kept of a model that names none
+_PACKAGE = "arthur_acausal"
+
+Structure = tuple[str, tuple[tuple[str, str], ...]]  # a model's name and its structural parameters as text
+
+
+@dataclass
+class Plan:
+    """All runs of a specification.
+
+    Attributes
+    ----------
+    specification, folder : what was asked for, and where its files stand.
+    find : name of a model -> its class.
+    runs : in order.
+    """
+
+    specification: Specification
+    folder: Path
+    find: Callable[[str], type[Any]]
+    _structures: dict[Structure, _Prepared] = field(default_factory=dict)
+
+    @cached_property
+    def runs(self) -> list[Run]:
+        """Every run with what varies."""
+        return runs(self.specification, self.folder)
+
+    @property
+    def factors(self) -> list[str]:
+        """Columns of the table that say what a run is."""
+        names = list(self.specification.vary)
+        if self.specification.replicates.parameter:
+            names.append(self.specification.replicates.parameter)
+        return (["model"] if len(self.specification.models) > 1 else []) + list(dict.fromkeys(names))
+
+    def prepared(self, run: Run) -> _Prepared:
+        """Return the structure that a run belongs to, translated when it is first asked for."""
+        key = self._structure(run)
+        if key not in self._structures:
+            self._structures[key] = _prepare(self, run.model, dict(key[1]))
+        return self._structures[key]
+
+    def task(self, run: Run) -> tuple[Task, dict[str, float | str]]:
+        """Return a run's task, and its columns of the table: what varies and what is derived, in SI.
+
+        Raises ArthurError where the values do not fit the model.
+        """
+        prepared = self.prepared(run)
+        found = self._values(prepared, run)
+        return Task(run.number, prepared.job, found.values), found.columns
+
+    def _structure(self, run: Run) -> Structure:
+        from arthur_acausal.request.settings import required_parameters, structural_parameters
+
+        kind = self.find(run.model)
+        names = {*structural_parameters(kind), *required_parameters(kind)}
+        fixed = {p: _text(v) for p, v in self.specification.set.items() if p in names}
+        varied = {p: _text(v) for p, v in run.values.items() if p in names}
+        return run.model, tuple(sorted({**fixed, **varied}.items()))
+
+    def _values(self, prepared: _Prepared, run: Run) -> _Found:
+        """Sort a run's values into parameters, inputs and start values."""
+        found = _Found()
+        if len(self.specification.models) > 1:
+            found.columns["model"] = run.model
+        for path, value in run.values.items():
+            prepared.place(path, value, found, self.folder)
+        known = {p: v for p, v in found.columns.items() if isinstance(v, float)} | dict(prepared.fixed)
+        for path, expression in self.specification.derive.items():
+            value = derived.compute(expression, known)
+            known[path] = value
+            prepared.place(path, value, found, self.folder)
+        return found
+
+
+@dataclass
+class _Found:
+    columns: dict[str, float | str] = field(default_factory=dict)
+    parameters: dict[str, float] = field(default_factory=dict)
+    inputs: dict[str, float | Signal] = field(default_factory=dict)
+    start: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def values(self) -> Values:
+        return Values(self.parameters, self.inputs, self.start)
+
+
+@dataclass(frozen=True)
+class _Prepared:
+    """One structure: its translation, the job of its runs, its structural parameters, and fixed values in SI."""
+
+    translation: Translation
+    job: Job
+    structural: Mapping[str, str]
+    fixed: Mapping[str, float]
+
+    def place(self, path: str, value: Value, found: _Found, folder: Path) -> None:
+        """Put a value where it belongs: the model decides what a path is."""
+        if path in self.structural:
+            found.columns[path] = value
+            return
+        _place(self.translation, path, value, found, folder)
+
+
+def _place(translation: Translation, path: str, value: Value, found: _Found, folder: Path) -> None:
+    dae = translation.dae
+    table = dae.parameters
+    if path in table.number or path in table.alias:
+        info = table.infos[table.find(path)]
+        number = to_si(value, info.unit, path=path)
+        found.parameters[path] = number
+        found.columns[path] = number
+    elif path in dae.u_paths:
+        unit = dae.u_units[dae.u_paths.index(path)]
+        if isinstance(value, str) and (signal := _signal(value, folder)) is not None:
+            found.inputs[path] = signal
+            found.columns[path] = value
+        else:
+            number = to_si(value, unit, path=path)
+            found.inputs[path] = number
+            found.columns[path] = number
+    elif path in dae.start_aliases:
+        entry = dae.starts[dae.start_aliases[path][0]]
+        number = to_si(value, entry.unit, path=path)
+        found.start[path] = number
+        found.columns[path] = number
+    else:
+        known = [*table.number, *table.alias, *dae.u_paths, *dae.start_aliases]
+        raise UsageError(
+            f"{path} is no parameter, input or start value of {translation.dae.name}",
+            remedy=nearest(path, known),
+        )
+
+
+def _signal(text: str, folder: Path) -> Signal | None:
+    """Return the signal of ``file.csv`` or ``file.csv:column``; None for what is no CSV file."""
+    from arthur_acausal.solve.table import Table
+
+    name, colon, column = text.rpartition(":")
+    if not colon:
+        name, column = text, ""
+    if not name.lower().endswith(".csv"):
+        return None
+    table = Table.from_csv(inside(name, folder), column=column or None)
+    return Signal(tuple(table.times.tolist()), tuple(table.values.tolist()), text)
+
+
+def _prepare(plan: Plan, model: str, structural: Mapping[str, str]) -> _Prepared:
+    """Translate one structure, and settle what all its runs share."""
+    from arthur_acausal.api import translate
+    from arthur_acausal.request.settings import read_settings
+
+    kind, specification = plan.find(model), plan.specification
+    settings = read_settings(kind, [f"{path}={text}" for path, text in structural.items()])
+    built = kind(**settings.structural)
+    translation = translate(built, name=model if ":" not in model else "")
+    found = _Found()
+    for section in (specification.set, specification.inputs, specification.start):
+        for path, value in section.items():
+            if path not in structural:
+                _place(translation, path, _number(value), found, plan.folder)
+    numbers = {p: v for p, v in found.columns.items() if isinstance(v, float)}
+    return _Prepared(translation, _job(plan, translation, built, found), structural, numbers)
+
+
+def _job(plan: Plan, translation: Translation, model: Any, found: _Found) -> Job:
+    from arthur_acausal.result.run import plain
+
+    specification, output = plan.specification, plan.specification.output
+    paths = list(translation.dae.recovery.paths)
+    variables = outputs(translation, output)
+    reductions = parse(output.reductions, variables, paths)
+    terms = getattr(model, "audit_terms", None)
+    modules, folders = _own_modules(type(model), output)
+    only_ends = not output.trajectories and all(r.kind in ("final", "initial") for r in reductions)
+    span = specification.stop_time - specification.start_time
+    return Job(
+        system=translation.to_bytes(),
+        description=(inspect.getdoc(model) or "").partition("\n")[0],
+        audit=plain(terms()) if terms is not None else {},
+        start_time=specification.start_time,
+        stop_time=specification.stop_time,
+        tolerance=specification.tolerance,
+        interval=min(output.interval, span),
+        resolution=span if only_ends else min(output.interval / FINER, span),
+        variables=tuple(variables) if output.trajectories else (),
+        reductions=tuple(reductions),
+        parameters=found.parameters,
+        inputs=found.inputs,
+        start=found.start,
+        trusted=modules,
+        folders=folders,
+    )
+
+
+def outputs(translation: Translation, output: Output) -> list[str]:
+    """Return what is kept: the variables asked for, else the model's ``outputs``, else its signals out, its states."""
+    from arthur_acausal.result.pattern import select
+
+    paths = translation.dae.recovery.paths
+    if output.variables:
+        return list(select(list(output.variables), paths))
+    named = getattr(translation.model, "outputs", None)
+    if isinstance(named, Sequence) and not isinstance(named, str):
+        return list(select(list(named), paths))
+    quantities = type(translation.model)._declarations.quantities
+    signals = [name for name, quantity in quantities.items() if quantity.kind == "output"]
+    dae = translation.dae
+    states = [path for path, is_state in zip(dae.y_paths, dae.differential, strict=True) if is_state]
+    return signals or states[:MOST_OUTPUTS]
+
+
+def _own_modules(kind: type[Any], output: Output) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the user's modules that a worker may import functions from, and the folders to find them in."""
+    names = [base.__module__ for base in kind.__mro__]
+    names += [text.partition(":")[0] for text in output.reductions or () if ":" in text]
+    own = sorted({n for n in names if n.partition(".")[0] not in (_PACKAGE, "builtins", "abc", "typing")})
+    folders = {
+        str(Path(file).resolve().parents[name.count(".")])
+        for name in own
+        if (file := getattr(sys.modules.get(name), "__file__", None))
+    }
+    return tuple(own), tuple(sorted(folders))
+
+
+def _text(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float) and value.is_integer():
+        return str(int(value))
+    return str(value)
+
+
+def _number(value: float | str | bool) -> Value:
+    return float(value) if isinstance(value, bool | int | float) else value
