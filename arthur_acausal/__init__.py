@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from arthur_acausal.api import Translation as Translation
     from arthur_acausal.api import simulate as simulate
     from arthur_acausal.api import translate as translate
+    from arthur_acausal.declare.external import ExternalFunction as ExternalFunction
+    from arthur_acausal.declare.external import external as external
     from arthur_acausal.declare.model import Component as Component
     from arthur_acausal.declare.model import Connector as Connector
     from arthur_acausal.declare.model import Equations as Equations
@@ -54,6 +56,7 @@ __version__ = "0.1.0"
 # where each public name lives: a module is imported when one of its names is used for the first time
 _HOME = {
     "api": ("Translation", "simulate", "translate"),
+    "declare.external": ("ExternalFunction", "external"),
     "declare.model": ("Component", "Connector", "Equations", "Record"),
     "declare.quantity": (
         "Real",

@@ -92,6 +92,7 @@ class StretchEvaluator:
         self.initial_jacobian = self.initial = self.nothing
         self.roots = self.conditions = self.when_values = self.nothing
         self.sample_inputs = self.sample_times = self.nothing
+        self.external = None
 
     def nothing(self) -> FloatArray:
         """No relations, clauses, samples or initial conditions: every state is given."""

@@ -111,7 +111,7 @@ def linearize(
     part = slice(row, row + 1)
     rows = Rows(x.t[part], x.y[part], x.yp[part], x.p, x.u[part], x.z[part], x.m[part])
     y, yp = refine(dae, rows)
-    point = Rows(rows.t, y, yp, rows.p, rows.u, rows.z, rows.m).arguments()
+    point = dae.completed(Rows(rows.t, y, yp, rows.p, rows.u, rows.z, rows.m).arguments(), "derivatives")
     fy, fyp, fu = (
         np.array(dae.functions[name](*point), dtype=float)
         for name in ("jacobian_y", "jacobian_yp", "jacobian_u")
@@ -181,6 +181,23 @@ def _row(trajectory: Trajectory, at: float | None) -> int:
     return int(nearest[-1])
 
 
+def _through_calls(
+    dae: CompiledDAE, point: list[FloatArray], d_y: FloatArray, d_yp: FloatArray, d_u: FloatArray
+) -> FloatArray:
+    """Return the derivatives of the outputs of external functions by the chain rule, in the order of the calls."""
+    outputs, slopes = point[7], np.asarray(point[8]).reshape(-1)
+    found = np.zeros((outputs.size, d_y.shape[1]))
+    for call in dae.calls:
+        f = call.inputs
+        by_argument = f.jacobian()(*point, f(*point))
+        by_y, by_yp, by_u, by_e = (np.array(by_argument[k], dtype=float) for k in (1, 2, 4, 7))
+        n, m = call.function.n_outputs, call.function.n_inputs
+        own = slopes[call.slope : call.slope + n * m].reshape(n, m)
+        inputs = by_y @ d_y + by_yp @ d_yp + by_u @ d_u + by_e @ found
+        found[call.first : call.first + n] = own @ inputs
+    return found
+
+
 def _outputs(
     dae: CompiledDAE,
     paths: Sequence[str],
@@ -203,6 +220,8 @@ def _outputs(
     by_argument = recovery.observed.jacobian()(*point, column)  # in the order t, y, yp, p, u, z, m
     oy, oyp, ou = (np.array(by_argument[k], dtype=float) for k in (1, 2, 4))
     d_observed = oy @ d_y + oyp @ d_yp + ou @ d_u
+    if dae.calls:
+        d_observed += np.array(by_argument[7], dtype=float) @ _through_calls(dae, point, d_y, d_yp, d_u)
     table = {"y": d_y, "yp": d_yp, "u": d_u, "observed": d_observed}
     result = np.zeros((len(paths), n + n_u))
     for k, path in enumerate(paths):

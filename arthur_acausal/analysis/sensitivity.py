@@ -72,6 +72,13 @@ def sensitivities(
         raise UsageError(
             f"the run {what}", remedy="sensitivities need one computed run with one set of states"
         )
+    if dae.calls:
+        raise UsageError(
+            f"no sensitivities through {dae.calls[0].label}",
+            where=dae.calls[0].where,
+            cause="the sensitivity equations need the derivatives of the external function as expressions",
+            remedy="take differences of two runs at a tight tolerance",
+        )
     return _Along(dae, pieces[0].trajectory, list(parameters), given or {}, start or {}, inputs or {}).run(
         list(outputs)
     )

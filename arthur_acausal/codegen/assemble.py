@@ -19,6 +19,7 @@ class Arguments:
 
     ``starting``: whether they are those of the start. ``blend``: the part of homotopy's actual expressions; at the
     start it is the last entry of p where there are such, else 1.
+    e are the outputs of external functions, d the derivatives of these by the functions' inputs.
     """
 
     t: SX
@@ -32,6 +33,8 @@ class Arguments:
     m: SX
     blend: SX
     starting: bool
+    e: SX
+    d: SX
 
     @property
     def p(self) -> SX:
@@ -40,7 +43,8 @@ class Arguments:
 
     def continuous(self) -> list[SX]:
         """Return the arguments of kernels that are evaluated between events."""
-        return [self.t, self.y, self.yp, self.p, self.u, self.z, self.m]
+        external = [self.e, self.d] if self.e.numel() else []
+        return [self.t, self.y, self.yp, self.p, self.u, self.z, self.m, *external]
 
     def event(self) -> list[SX]:
         """Return the arguments of kernels that are evaluated at events."""
@@ -93,6 +97,8 @@ def assemble(dae: StructuredDAE, n_starts: int, *, starting: bool = False) -> As
         SX.sym("m", len(flat.relations) + (dae.reduced.sets is not None)),
         SX.sym("homotopy") if starting and "homotopy" in nodes.start_only else SX(1.0),
         starting,
+        SX.sym("e", len(flat.scope.external)),
+        SX.sym("d", sum(c.call.sparsity.size for c in flat.calls)),
     )
     values: list[SX] = [SX(0.0)] * len(nodes.all)
     y, yp = elements(arguments.y), elements(arguments.yp)
@@ -150,6 +156,7 @@ def lookup(dae: StructuredDAE, assembly: Assembly, *, before: bool) -> Callable[
     p, u, m = assembly.parameters, elements(arguments.u), elements(arguments.m)
     z = elements(arguments.z)
     zp = elements(arguments.zp) if before else z
+    e = elements(arguments.e)
     values, place = assembly.node_values, assembly.parameter_place
     zero = SX(0.0)
 
@@ -175,6 +182,8 @@ def lookup(dae: StructuredDAE, assembly: Assembly, *, before: bool) -> Callable[
                 return SX(float(arguments.starting))
             case "homotopy":
                 return arguments.blend
+            case "external":
+                return e[ref.number]
         return zero
 
     return look
@@ -192,11 +201,12 @@ def add_derivatives(dae: StructuredDAE, assembly: Assembly) -> None:
     before = {derivative: node for node, derivative in enumerate(nodes.derivative)}
     for node in range(len(values), len(nodes.all)):
         value = values[before[node]]
-        loose = ca.vertcat(a.yp, a.y[n_states:], a.u)
+        loose = ca.vertcat(a.yp, a.y[n_states:], a.u, a.e)
         if loose.numel() and ca.depends_on(value, loose):
             raise StructureError(
                 f"{nodes.name(node)} stands in no equation of the dynamics, and is not known",
-                cause="the variable depends on algebraic unknowns or inputs, not on states and time alone",
+                cause="the variable depends on algebraic unknowns, inputs or external functions, "
+                "not on states and time alone",
                 remedy="write it with variables of the model's own equations",
             )
         states, rates = a.y[:n_states], a.yp[:n_states]

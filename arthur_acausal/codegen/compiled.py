@@ -9,6 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from arthur_acausal.codegen.calls import Calls, ExternalCall, Need, completed
 from arthur_acausal.codegen.kernel import Kernel
 from arthur_acausal.codegen.parameters import ParameterTable
 from arthur_acausal.codegen.rates import RootsWithRates
@@ -64,6 +65,8 @@ class CompiledDAE:
     )  # variable path -> (number of the entry, sign)
     pivot_labels: list[str] = field(repr=False)
     functions: dict[str, ca.Function] = field(repr=False)
+    calls: list[ExternalCall] = field(repr=False)
+    needs: dict[str, Need] = field(repr=False)  # what a function takes of the external ones, where it does
     recovery: Recovery = field(repr=False)
     samples: list[SampledBlock]
     relations_of_rates: bool
@@ -135,6 +138,10 @@ class CompiledDAE:
         start = np.clip(start, self.minimum, self.maximum)
         return Attributes(start, fixed, given, self.nominal, self.minimum, self.maximum, z_start)
 
+    def completed(self, arguments: Sequence[FloatArray], need: Need = "values") -> list[FloatArray]:
+        """Return the functions' arguments, a column a time, with what external functions give there."""
+        return completed(self.calls, arguments, self.recovery.external_sizes, need)
+
     def evaluator(self) -> Evaluator:
         """Return the kernels with buffers of their own; one for each thread."""
         return Evaluator(self)
@@ -148,7 +155,7 @@ class Evaluator:
 
     def __init__(self, dae: CompiledDAE) -> None:
         self._dae = dae
-        self._kernels: dict[str, Kernel] = {}
+        self._kernels: dict[str, Callable[[], FloatArray]] = {}
         size = {
             "t": 1,
             "y": dae.n,
@@ -163,63 +170,70 @@ class Evaluator:
         self.cj = np.ones(1)
         self.u[:] = dae.u_default
         self._continuous = [self.t, self.y, self.yp, self.p, self.u, self.z, self.m]
+        self.external: Calls | None = None
+        if dae.calls:
+            self._continuous += [np.zeros(size) for size in dae.recovery.external_sizes]
+            self.external = Calls(dae.calls, dae.functions, self._continuous, *self._continuous[-2:])
         self.residual = self._kernel("residual")
         self.jacobian = self._kernel("jacobian", self.cj)
-        self.roots: Callable[[], FloatArray] = self._kernel("roots")
+        self.roots = self._kernel("roots")
         if dae.relations_of_rates:
             self.roots = RootsWithRates(dae, self, self.roots)
         if dae.sets is not None:
             entries = self._kernel("state_sets")
             self.roots = RootsWithMargin(self.roots, entries, dae.sets, dae.dummies, len(dae.relations))
 
-    def _kernel(self, name: str, *further: FloatArray) -> Kernel:
-        return Kernel(self._dae.functions[name], [*self._continuous, *further])
+    def _kernel(self, name: str, *further: FloatArray) -> Callable[[], FloatArray]:
+        kernel = Kernel(self._dae.functions[name], [*self._continuous, *further])
+        return (
+            kernel if self.external is None else self.external.before(kernel, self._dae.needs.get(name, ""))
+        )
 
-    def _lazy(self, name: str, *further: FloatArray) -> Kernel:
+    def _lazy(self, name: str, *further: FloatArray) -> Callable[[], FloatArray]:
         """Return a kernel that not every run needs; made once."""
         if name not in self._kernels:
             self._kernels[name] = self._kernel(name, *further)
         return self._kernels[name]
 
     @property
-    def jacobian_y(self) -> Kernel:
+    def jacobian_y(self) -> Callable[[], FloatArray]:
         """dF/dy, (nnz,) in the order of the DAE's sparsity."""
         return self._lazy("jacobian_y")
 
     @property
-    def jacobian_yp(self) -> Kernel:
+    def jacobian_yp(self) -> Callable[[], FloatArray]:
         """dF/dy', (nnz,) in the order of the DAE's sparsity."""
         return self._lazy("jacobian_yp")
 
     @property
-    def conditions(self) -> Kernel:
+    def conditions(self) -> Callable[[], FloatArray]:
         """The truth of each when's condition, (n_whens,)."""
         return self._lazy("conditions", self.zp)
 
     @property
-    def when_values(self) -> Kernel:
+    def when_values(self) -> Callable[[], FloatArray]:
         """The right-hand side of each assignment, (n_assignments,)."""
         return self._lazy("when_values", self.zp)
 
     @property
-    def sample_inputs(self) -> Kernel:
+    def sample_inputs(self) -> Callable[[], FloatArray]:
         """The inputs of all sampled blocks, one after the other."""
         return self._lazy("sample_inputs")
 
     @property
-    def sample_times(self) -> Kernel:
+    def sample_times(self) -> Callable[[], FloatArray]:
         """The periods of all sampled blocks [s], then their offsets [s]."""
         if "sample_times" not in self._kernels:
             self._kernels["sample_times"] = Kernel(self._dae.functions["sample_times"], [self.p])
         return self._kernels["sample_times"]
 
     @property
-    def initial(self) -> Kernel:
+    def initial(self) -> Callable[[], FloatArray]:
         """Residuals of the conditions at the start, (n_init,)."""
         return self._lazy("initial")
 
     @property
-    def initial_jacobian(self) -> Kernel:
+    def initial_jacobian(self) -> Callable[[], FloatArray]:
         """[dh/dy | dh/dy'] of the conditions at the start, in the order of the DAE's init_sparsity."""
         return self._lazy("initial_jacobian")
 

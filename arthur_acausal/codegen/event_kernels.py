@@ -19,7 +19,7 @@ def placed_row(dae: StructuredDAE, expression: Any, placed: Any) -> Row:
 
 def time_only(g: SX, a: Any) -> bool:
     """Tell whether g depends on time, affinely, and on nothing that changes between events."""
-    if any(ca.depends_on(g, x) for x in (a.y, a.yp, a.u) if x.numel()):
+    if any(ca.depends_on(g, x) for x in (a.y, a.yp, a.u, a.e) if x.numel()):
         return False
     return bool(ca.depends_on(g, a.t)) and not ca.depends_on(ca.jacobian(g, a.t), a.t)
 

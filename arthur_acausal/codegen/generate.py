@@ -15,13 +15,14 @@ from arthur_acausal.codegen.assemble import (
     elements,
     lookup,
 )
+from arthur_acausal.codegen.chain_rule import ChainRule
 from arthur_acausal.codegen.compiled import CompiledDAE, as_bools, pattern_of
 from arthur_acausal.codegen.event_kernels import placed_row, samples_of, time_only, whens_of
 from arthur_acausal.codegen.kernel import compile_functions
 from arthur_acausal.codegen.recovery import Recovery, Source
 from arthur_acausal.codegen.starts import attribute_arrays, collect_starts
 from arthur_acausal.codegen.switching import RELATION, add_switching, continuation_starts
-from arthur_acausal.codegen.tables import Relation
+from arthur_acausal.codegen.tables import BoolArray, Relation
 from arthur_acausal.codegen.values import parameter_table, start_entries, start_value
 from arthur_acausal.declare.scope import Declared
 from arthur_acausal.errors import ParameterError
@@ -47,9 +48,13 @@ def generate(
     y_place = {node: k for k, node in enumerate(assembly.y_nodes)}
     table = parameter_table(dae, assembly)
     entries, aliases = start_entries(dae, slots, y_place, len(table.infos))
-    functions, tables = _functions(dae, assembly, slots, y_place, continuation)
-    hot = compile_functions([functions[name] for name in COMPILED], mode=compile)
-    functions |= dict(zip(COMPILED, hot, strict=True))
+    rule = ChainRule(dae, assembly)
+    functions, tables = _functions(dae, assembly, rule, slots, y_place, continuation)
+    calls = rule.calls()
+    functions |= {call.name: call.inputs for call in calls}
+    often = [*COMPILED, *(call.name for call in calls)]
+    hot = compile_functions([functions[name] for name in often], mode=compile)
+    functions |= dict(zip(often, hot, strict=True))
     nominal, minimum, maximum = attribute_arrays(dae, assembly.y_nodes)
     flat, n_states, start_only = dae.flat, len(dae.causal.states), dae.nodes.start_only
     own_start = bool(start_only) and not (starting or continuation)
@@ -70,7 +75,8 @@ def generate(
         start_aliases=aliases,
         pivot_labels=[label for _, label in assembly.pivots],
         functions=functions,
-        recovery=_recovery(dae, assembly, y_place),
+        calls=calls,
+        recovery=_recovery(dae, assembly, rule, y_place),
         sets=dae.reduced.sets,
         dummies=dae.reduced.dummies,
         blends=starting and "homotopy" in start_only,
@@ -94,6 +100,7 @@ def _default(declared: Declared) -> float:
 def _functions(
     dae: StructuredDAE,
     assembly: Assembly,
+    rule: ChainRule,
     slots: list[StartSlot],
     y_place: dict[int, int],
     continuation: bool,
@@ -102,36 +109,35 @@ def _functions(
     arguments = a.continuous()
     look, before = lookup(dae, assembly, before=False), lookup(dae, assembly, before=True)
     residual = _shared(_column(assembly.residual))
-    dy, dyp = ca.jacobian(residual, a.y), ca.jacobian(residual, a.yp)
     cj = SX.sym("cj")
-    both = _shared(dy + cj * dyp)
+    dy, dyp = rule(residual, a.y), rule(residual, a.yp)
+    both = _shared(rule(residual, a.y, a.yp, cj) if dae.flat.calls else dy + cj * dyp)
     pattern = both.sparsity()
     roots = [dae.evaluator(placed_row(dae, r.relation.g, r), look) for r in dae.flat.relations]
     conditions, values, whens, assignments = events = whens_of(dae, before, y_place, starting=a.starting)
     entries = add_switching(dae, assembly, look, events)
     initial, labels = _initial(dae, assembly, slots, [] if continuation else dae.flat.initial)
-    slope = ca.horzcat(ca.jacobian(initial, a.y), ca.jacobian(initial, a.yp))
+    slope = ca.horzcat(rule(initial, a.y), rule(initial, a.yp))
     samples, sample_inputs, sample_times = samples_of(dae, look)
     starts = [start_value(dae, assembly, s.value, s.path) for s in slots]
     starts += [
         start_value(dae, assembly, d.start.value if d.start else 0.0, d.path) for d in dae.flat.scope.discrete
     ]
-    make = ca.Function
-    functions = {
-        "residual": make("residual", arguments, [residual]),
-        "jacobian": make("jacobian", [*arguments, cj], [both]),
-        "roots": make("roots", arguments, [_column(roots)]),
-        "jacobian_y": make("jacobian_y", arguments, [ca.project(dy, pattern)]),
-        "jacobian_yp": make("jacobian_yp", arguments, [ca.project(dyp, pattern)]),
-        "jacobian_u": make("jacobian_u", arguments, [ca.jacobian(residual, a.u)]),
-        "conditions": make("conditions", a.event(), [_column(conditions)]),
-        "when_values": make("when_values", a.event(), [_column(values)]),
-        "initial": make("initial", arguments, [initial]),
-        "initial_jacobian": make("initial_jacobian", arguments, [slope]),
-        "sample_inputs": make("sample_inputs", arguments, [_column(sample_inputs)]),
-        "sample_times": make("sample_times", [a.p], [_column(sample_times)]),
-        "starts": make("starts", [a.parameters], [_column(starts)]),
-        "pivots": make("pivots", [a.p], [_column([v for v, _ in assembly.pivots])]),
+    kernels: dict[str, tuple[list[SX], SX]] = {
+        "residual": (arguments, residual),
+        "jacobian": ([*arguments, cj], both),
+        "roots": (arguments, _column(roots)),
+        "jacobian_y": (arguments, ca.project(dy, pattern)),
+        "jacobian_yp": (arguments, ca.project(dyp, pattern)),
+        "jacobian_u": (arguments, rule(residual, a.u)),
+        "conditions": (a.event(), _column(conditions)),
+        "when_values": (a.event(), _column(values)),
+        "initial": (arguments, initial),
+        "initial_jacobian": (arguments, slope),
+        "sample_inputs": (arguments, _column(sample_inputs)),
+        "sample_times": ([a.p], _column(sample_times)),
+        "starts": ([a.parameters], _column(starts)),
+        "pivots": ([a.p], _column([v for v, _ in assembly.pivots])),
     }
     relations = [
         Relation(
@@ -143,19 +149,20 @@ def _functions(
         for r, g in zip(dae.flat.relations, roots, strict=True)
     ]
     if entries is not None:
-        functions["state_sets"] = make("state_sets", arguments, [entries])
+        kernels["state_sets"] = (arguments, entries)
         relations.append(RELATION)
     tables = {
         "relations": relations,
         "whens": whens,
         "assignments": assignments,
         "samples": samples,
-        "relations_of_rates": bool(roots) and bool(ca.depends_on(_column(roots), a.yp)),
+        "relations_of_rates": bool(roots) and rule.reaches(_column(roots), a.yp),
+        "needs": {name: need for name, (_, value) in kernels.items() if (need := rule.need(value))},
         "sparsity": pattern_of(both),
         "init_sparsity": pattern_of(slope),
         "init_labels": labels,
     }
-    return functions, tables
+    return {name: ca.Function(name, ins, [value]) for name, (ins, value) in kernels.items()}, tables
 
 
 def _shared(matrix: SX) -> SX:
@@ -188,7 +195,7 @@ def _initial(
     return _column(values), labels
 
 
-def _recovery(dae: StructuredDAE, assembly: Assembly, y_place: dict[int, int]) -> Recovery:
+def _recovery(dae: StructuredDAE, assembly: Assembly, rule: ChainRule, y_place: dict[int, int]) -> Recovery:
     paths, sources, quantities = [], [], []
     observed: list[SX] = []
     place_of_node: dict[int, int] = {}
@@ -229,7 +236,23 @@ def _recovery(dae: StructuredDAE, assembly: Assembly, y_place: dict[int, int]) -
     column = _column(observed)
     function = ca.Function("observed", a.continuous(), [column])
     loose = ca.vertcat(a.yp, a.y[n_states:])
-    interpolated = (
-        ca.which_depends(column, loose, 1, True) if loose.numel() and observed else [False] * len(observed)
+    if any(rule.reaches(x, loose) for x in rule.inputs):
+        loose = ca.vertcat(loose, a.e)
+    return Recovery(
+        paths,
+        sources,
+        units,
+        displays,
+        descriptions,
+        function,
+        _depending(column, loose),
+        n_states,
+        rule.calls(),
+        _depending(column, a.e),
     )
-    return Recovery(paths, sources, units, displays, descriptions, function, as_bools(interpolated), n_states)
+
+
+def _depending(column: SX, on: SX) -> BoolArray:
+    """Tell which entries depend on any of some symbols."""
+    both = bool(on.numel()) and bool(column.numel())
+    return as_bools(ca.which_depends(column, on, 1, True) if both else [False] * column.numel())

@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from arthur_acausal.codegen.calls import ExternalCall, Need, completed
 from arthur_acausal.errors import ResultError, nearest
 
 FloatArray = NDArray[np.float64]
@@ -32,7 +33,8 @@ class Recovery:
 
     ``observed``: CasADi function of (t, y, yp, p, u, z, m) with the eliminated variables as one column;
     ``interpolated``: which of them depend on y' or on algebraic unknowns, which the integrator only interpolates;
-    ``n_states``: y from here on is algebraic.
+    ``n_states``: y from here on is algebraic; ``calls``: the external functions, ``external``: which eliminated
+    variables depend on these.
     """
 
     paths: list[str]
@@ -43,6 +45,13 @@ class Recovery:
     observed: ca.Function = field(repr=False)
     interpolated: NDArray[np.bool_] = field(repr=False)
     n_states: int
+    calls: list[ExternalCall] = field(repr=False)
+    external: NDArray[np.bool_] = field(repr=False)
+
+    @cached_property
+    def external_sizes(self) -> tuple[int, int]:
+        """How many outputs and derivatives external functions have."""
+        return (self.observed.size1_in(7), self.observed.size1_in(8)) if self.calls else (0, 0)
 
     @cached_property
     def number(self) -> dict[str, int]:
@@ -114,6 +123,8 @@ class Recovery:
             count = len(t[part])
             same = np.repeat(p.reshape(-1, 1), count, axis=1)
             arguments = (t[part].reshape(1, -1), y[part].T, yp[part].T, same, u[part].T, z[part].T, m[part].T)
-            values = np.asarray(self.observed.map(count)(*arguments), dtype=float)
+            need: Need = "values" if self.external[wanted].any() else ""
+            complete = completed(self.calls, arguments, self.external_sizes, need)
+            values = np.asarray(self.observed.map(count)(*complete), dtype=float)
             out[part] = values[wanted].T
         return out

@@ -14,12 +14,13 @@ from arthur_acausal.declare.quantity import Quantity, Start
 from arthur_acausal.errors import DeclarationError
 
 AtomKind: TypeAlias = Literal[
-    "variable", "der", "parameter", "discrete", "pre", "mode", "time", "initial", "homotopy"
+    "variable", "der", "parameter", "discrete", "pre", "mode", "time", "initial", "homotopy", "external"
 ]
 
 
 class Atom(NamedTuple):
-    """What one symbol stands for: its kind, and its number among the variables, parameters, discretes or relations."""
+    """What one symbol stands for: its kind, and its number among the variables, parameters, discretes, relations
+    or outputs of external functions."""
 
     kind: AtomKind
     number: int
@@ -56,6 +57,13 @@ class Relation:
     text: str
 
 
+class ExternalOutput(NamedTuple):
+    """One output of a call of an external function: how people read it, and its unit, empty if not known."""
+
+    name: str
+    unit: str
+
+
 @dataclass(slots=True)
 class Scope:
     """All declared quantities below one root, by space, in the order of declaration."""
@@ -64,6 +72,7 @@ class Scope:
     parameter: list[Declared] = field(default_factory=list)
     discrete: list[Declared] = field(default_factory=list)
     relations: list[Relation] = field(default_factory=list)
+    external: list[ExternalOutput] = field(default_factory=list)
     places: dict[tuple[int, int], Any] = field(
         default_factory=dict
     )  # (component object, its author) -> instance
@@ -99,6 +108,8 @@ class Scope:
                 return atom.kind
             case "initial":
                 return "initial()"
+            case "external":
+                return self.external[atom.number].name
             case _:
                 return self.short(getattr(self, atom.kind)[atom.number].path)
 
@@ -115,7 +126,7 @@ class Scope:
     def quantity(self, atom: Atom) -> Quantity | None:
         """Return the declaration behind an atom; None for time, relations and the like."""
         space = {"der": "variable", "pre": "discrete"}.get(atom.kind, atom.kind)
-        if space in ("time", "mode", "initial", "homotopy"):
+        if space in ("time", "mode", "initial", "homotopy", "external"):
             return None
         declared: Declared = getattr(self, space)[atom.number]
         return declared.quantity

@@ -95,7 +95,15 @@ def der(x: SX) -> SX:
     result = SX(0.0)
     for symbol in ca.symvar(x):
         found = scope.atom(symbol)
-        if found is None or found.kind in ("parameter", "discrete", "pre", "mode", "initial", "homotopy"):
+        if found is None or found.kind in (
+            "parameter",
+            "discrete",
+            "pre",
+            "mode",
+            "initial",
+            "homotopy",
+            "external",
+        ):
             continue
         if found.kind == "der":
             raise DeclarationError(

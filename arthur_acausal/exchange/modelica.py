@@ -43,7 +43,7 @@ class Given:
 def to_modelica(flat: FlatSystem, given: Given | None = None) -> str:
     """Return the text of a flat Modelica model.
 
-    Raises UsageError for what Modelica has no words for: functions in Python that are called at samples.
+    Raises UsageError for what Modelica has no words for: functions in Python, external or called at samples.
     """
     return "\n".join(_Writer(flat, given or Given()).lines()) + "\n"
 
@@ -71,6 +71,12 @@ class _Writer:
                 f"{sampling.path} calls a function of Python at its samples, which has no form in Modelica",
                 where=sampling.sampling.where,
                 remedy="replace it by discrete equations for the export",
+            )
+        if flat.calls:
+            raise UsageError(
+                f"{flat.calls[0].text}: an external function has no form in Modelica",
+                where=flat.calls[0].call.where,
+                remedy="replace it by equations for the export",
             )
         name = model_name(flat.name)
         root = flat.components[0]

@@ -7,13 +7,18 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import casadi as ca
+import numpy as np
 from casadi import SX
+from numpy.typing import NDArray
 
 from arthur_acausal.declare.authored import authored, defined_at, place
+from arthur_acausal.declare.external import External, ExternalFunction
 from arthur_acausal.declare.model import Component, title_of
 from arthur_acausal.declare.scope import Atom, Scope, using
 from arthur_acausal.declare.statement import Connection, Reinit, Sampled, Terminate, When
 from arthur_acausal.errors import DeclarationError
+
+BoolArray = NDArray[np.bool_]
 
 _OVER = object()
 SHOWN = 100  # characters of an equation that a message shows
@@ -21,11 +26,16 @@ SHOWN = 100  # characters of an equation that a message shows
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Expression:
-    """An expression over the symbols of a scope; ``atoms`` are what its symbols stand for, in their order."""
+    """An expression over the symbols of a scope; ``atoms`` are what its symbols stand for, in their order.
+
+    ``through``: of an equation of an external function, the positions of the symbols that it depends on by way of
+    the function; all of the function's inputs are among the symbols.
+    """
 
     value: SX
     symbols: list[SX]
     atoms: list[Atom]
+    through: frozenset[int] | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,6 +95,19 @@ class Sampling:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Call:
+    """A call of an external function; ``first`` is the number of its first output, ``units`` are of its inputs."""
+
+    function: ExternalFunction
+    inputs: tuple[Expression, ...]
+    units: tuple[str, ...]
+    sparsity: BoolArray
+    first: int
+    label: str
+    where: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Comparison:
     """A relation that makes events: true where ``g`` > 0, or >= 0 if ``inclusive``."""
 
@@ -104,6 +127,7 @@ class Block:
     clauses: list[Clause] = field(default_factory=list)
     relations: list[Comparison] = field(default_factory=list)
     samplings: list[Sampling] = field(default_factory=list)
+    calls: list[Call] = field(default_factory=list)
 
 
 def run_block(component: Component, scope: Scope) -> Block:
@@ -179,6 +203,8 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
             block.clauses.append(Clause(tested, assignments, label, where, earlier))
     elif isinstance(statement, Sampled):
         block.samplings.append(_sampling(statement, label, where, scope))
+    elif isinstance(statement, External):
+        _add_call(statement, label, where, scope, block)
     elif _is_equation(statement):
         target = scope.atom(statement.dep(0))
         if target is not None and target.kind == "discrete":
@@ -200,7 +226,7 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
             component,
             where,
             f"{statement!r} is no equation",
-            "yield lhs == rhs, a pair (label, lhs == rhs), connect(...) or when(...)",
+            "yield lhs == rhs, a pair (label, lhs == rhs), connect(...), when(...) or external(...)",
         )
 
 
@@ -210,6 +236,35 @@ def _sampling(statement: Sampled, label: str, where: str, scope: Scope) -> Sampl
     )
     outputs = tuple(atom for x in statement.outputs if (atom := scope.atom(x)) is not None)
     return Sampling(statement.function, period, offset, tuple(inputs), outputs, label, where)
+
+
+def _add_call(statement: External, label: str, where: str, scope: Scope, block: Block) -> None:
+    """Add the call, and an equation for each of its outputs."""
+    inputs = tuple(make_expression(x, where, scope) for x in statement.inputs)
+    first = scope.atom(statement.symbols[0]).number if statement.symbols else 0  # type: ignore[union-attr]
+    block.calls.append(
+        Call(statement.function, inputs, statement.units, statement.sparsity, first, label, where)
+    )
+    for k, (output, symbol) in enumerate(zip(statement.outputs, statement.symbols, strict=True)):
+        equation = make_equation(output == symbol, f"{label}[{k}]" if label else "", where, scope)
+        residual = _through(equation.residual, inputs, statement.sparsity[k])
+        block.equations.append(replace(equation, residual=residual))
+
+
+def _through(own: Expression, inputs: tuple[Expression, ...], present: BoolArray) -> Expression:
+    """Return the expression with the symbols of all inputs; it depends on those of the inputs ``present``."""
+    position = {symbol.element_hash(): i for i, symbol in enumerate(own.symbols)}
+    symbols, atoms = list(own.symbols), list(own.atoms)
+    through = set()
+    for expression, there in zip(inputs, present.tolist(), strict=True):
+        for symbol, atom in zip(expression.symbols, expression.atoms, strict=True):
+            place = position.setdefault(symbol.element_hash(), len(symbols))
+            if place == len(symbols):
+                symbols.append(symbol)
+                atoms.append(atom)
+            if there:
+                through.add(place)
+    return Expression(own.value, symbols, atoms, frozenset(through))
 
 
 def _assignment(statement: Any, where: str, component: Component, scope: Scope) -> Assignment:

@@ -11,7 +11,7 @@ from casadi import SX
 
 from arthur_acausal.declare.scope import Atom, Declared, Scope
 from arthur_acausal.errors import UnitError
-from arthur_acausal.flatten.block import Assignment, Block, Expression, make_expression, shortened
+from arthur_acausal.flatten.block import Assignment, Block, Call, Expression, make_expression, shortened
 from arthur_acausal.units import Dimension, divide, format_dimension, multiply, parse_unit, power
 
 ANY = None  # the dimension of zero and of infinity, which fit everywhere
@@ -47,6 +47,8 @@ def check_block(block: Block, scope: Scope, path: str) -> None:
     for relation in block.relations:
         with _located(lambda: relation.text, path, "", relation.where):  # noqa: B023
             _dimension(relation.g.value, _memo(relation.g, scope))
+    for call in block.calls:
+        _check_call(call, scope, path)
     for clause in block.clauses:
         for assignment in clause.assignments:
             _check_assignment(assignment, scope, path, clause.label)
@@ -59,6 +61,15 @@ def _check_assignment(assignment: Assignment, scope: Scope, path: str, label: st
     with _located(lambda: f"{scope.name(target)} becomes {value.value}", path, label, assignment.where):
         given = _dimension(value.value, _memo(value, scope))
         _same(_of(target, scope), given, scope.name(target), "its new value")
+
+
+def _check_call(call: Call, scope: Scope, path: str) -> None:
+    for k, expression in enumerate(call.inputs):
+        what = f"input {k} of {call.function.name}"
+        with _located(lambda: f"{what}, {expression.value}", path, call.label, call.where):  # noqa: B023
+            given = _dimension(expression.value, _memo(expression, scope))
+            wanted = parse_unit(call.units[k]).dimension if call.units else ANY
+            _same(wanted, given, "the function's unit", "what it is given")
 
 
 def check_values(scope: Scope) -> None:
@@ -102,7 +113,10 @@ def _memo(expression: Expression, scope: Scope) -> Memo:
     return {symbol.element_hash(): _of(atom, scope) for symbol, atom in pairs}
 
 
-def _of(atom: Atom, scope: Scope) -> Dimension:
+def _of(atom: Atom, scope: Scope) -> Dimension | None:
+    if atom.kind == "external":
+        unit = scope.external[atom.number].unit
+        return parse_unit(unit).dimension if unit else ANY
     quantity = scope.quantity(atom)
     if quantity is None:
         return _SECOND if atom.kind == "time" else _ONE

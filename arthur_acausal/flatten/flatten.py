@@ -20,6 +20,7 @@ from arthur_acausal.flatten.dimensions import check_block as check_dimensions
 from arthur_acausal.flatten.dimensions import check_values
 from arthur_acausal.flatten.media import unify_media
 from arthur_acausal.flatten.system import (
+    FlatCall,
     FlatClause,
     FlatEquation,
     FlatRelation,
@@ -74,6 +75,7 @@ class _Work:
     relations: list[FlatRelation] = field(default_factory=list)
     clauses: list[FlatClause] = field(default_factory=list)
     samplings: list[FlatSampling] = field(default_factory=list)
+    calls: list[FlatCall] = field(default_factory=list)
     blocks: dict[Hashable, Block] = field(default_factory=dict)
 
 
@@ -147,7 +149,7 @@ def _add_leaf(component: Component, work: _Work) -> None:
         if block.connections:
             raise ConnectError("connect() joins parts; this component has none", path=path_of(component))
         _check_block(copy, block, work, scope, [])
-        if block.samplings:  # their functions may be methods of the instance
+        if block.samplings or block.calls:  # their functions may be methods of the instance
             _place(component, run_block(component, work.scope), Shift(), work)
             return
         work.blocks[key] = block
@@ -176,6 +178,7 @@ def _place(component: Component, block: Block, shift: Shift, work: _Work) -> Non
     work.relations.extend(FlatRelation(r, path, shift) for r in block.relations)
     work.clauses.extend(FlatClause(c, path, shift) for c in block.clauses)
     work.samplings.extend(FlatSampling(s, path, shift) for s in block.samplings)
+    work.calls.extend(FlatCall(c, path) for c in block.calls)
 
 
 def _finish(
@@ -208,6 +211,7 @@ def _finish(
         work.relations,
         work.clauses,
         work.samplings,
+        work.calls,
         inputs,
         same,
         components,

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from arthur_acausal.declare.model import Component
 from arthur_acausal.declare.scope import Atom, Declared, Scope
-from arthur_acausal.flatten.block import Clause, Comparison, Equation, Sampling
+from arthur_acausal.flatten.block import Call, Clause, Comparison, Equation, Sampling
 from arthur_acausal.flatten.connections import Alias
 
 
@@ -88,6 +88,20 @@ class FlatSampling:
 
 
 @dataclass(frozen=True, slots=True)
+class FlatCall:
+    """A call of an external function by one component instance, in the model's own numbers."""
+
+    call: Call
+    path: str
+
+    @property
+    def text(self) -> str:
+        """What an error message calls it: path, label and name of the function, file:line."""
+        label = f'"{self.call.label}" ' if self.call.label else ""
+        return f"{self.path} {label}{self.call.function.name} ({self.call.where})".lstrip()
+
+
+@dataclass(frozen=True, slots=True)
 class FlatSystem:
     """All that a model says, in numbers: the input of the transformations.
 
@@ -103,6 +117,7 @@ class FlatSystem:
     relations: list[FlatRelation]
     clauses: list[FlatClause]
     samplings: list[FlatSampling]
+    calls: list[FlatCall]
     inputs: list[int]
     parameter_aliases: dict[int, int]
     components: list[Component]

@@ -72,7 +72,7 @@ def _entries_of_guess(
     evaluator = dae.evaluator()
     guess = dae.attributes(p)
     row = (np.zeros(1), guess.start, np.zeros(dae.n), p, evaluator.u, guess.z_start, evaluator.m)
-    return np.asarray(dae.functions["state_sets"](*row), dtype=float).reshape(-1)
+    return np.asarray(dae.functions["state_sets"](*dae.completed(row)), dtype=float).reshape(-1)
 
 
 def _last(piece: Piece) -> Rows:
@@ -84,7 +84,8 @@ def _last(piece: Piece) -> Rows:
 
 
 def _entries(piece: Piece) -> FloatArray:
-    return np.asarray(piece.dae.functions["state_sets"](*_last(piece).arguments()), dtype=float).reshape(-1)
+    arguments = piece.dae.completed(_last(piece).arguments())
+    return np.asarray(piece.dae.functions["state_sets"](*arguments), dtype=float).reshape(-1)
 
 
 def _values_at_end(piece: Piece, following: CompiledDAE) -> dict[str, float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import casadi as ca
 import numpy as np
@@ -79,6 +80,10 @@ def _values(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> 
     )  # computed together
     kept: dict[Atom, FloatArray] = {}
 
+    @cache
+    def called() -> FloatArray:
+        return _external(flat, value, len(t))
+
     def fetch(atom: Atom) -> FloatArray:
         match atom.kind:
             case "variable":
@@ -93,6 +98,8 @@ def _values(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> 
                 return np.ones(len(t))
             case "mode":
                 return solution.modes[:, atom.number]
+            case "external":
+                return np.asarray(called()[atom.number])
             case "der":
                 ref = structured.nodes.of_derivative(atom.number, "")
                 zero = np.zeros(len(t))
@@ -105,6 +112,26 @@ def _values(flat: FlatSystem, structured: StructuredDAE, solution: Solution) -> 
         return kept[atom]
 
     return value
+
+
+def _external(flat: FlatSystem, values: Callable[[Atom], FloatArray], count: int) -> FloatArray:
+    """Return the outputs of all external functions (n, nt), each of the raw equations' inputs."""
+    found = np.zeros((len(flat.scope.external), count))
+    for flat_call in flat.calls:
+        call = flat_call.call
+        inputs = np.zeros((count, len(call.inputs)))
+        for k, x in enumerate(call.inputs):
+            if x.symbols:
+                formula = ca.Function("input", [ca.vertcat(*x.symbols)], [x.value])
+                columns = np.array([values(atom) for atom in x.atoms])
+                inputs[:, k] = np.asarray(formula.map(count)(columns), dtype=float).reshape(-1)
+            else:
+                inputs[:, k] = float(x.value)
+        function, outputs = call.function.fresh(), np.zeros(len(call.sparsity))
+        for k in range(count):
+            function.evaluate(inputs[k], outputs)
+            found[call.first : call.first + len(outputs), k] = outputs
+    return found
 
 
 def _group(

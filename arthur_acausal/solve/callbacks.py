@@ -9,7 +9,7 @@ so that nothing of what IDA has computed is lost.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from time import perf_counter
 
@@ -32,12 +32,13 @@ TINY = 1e-300  # stands for a relation that is exactly zero: far below any other
 
 @dataclass(frozen=True, slots=True)
 class Offence:
-    """A trial state at which the residual rows `rows` were not finite."""
+    """A trial state at which the residual rows `rows` were not finite, because of the external `calls` if any."""
 
     t: float
     y: FloatArray
     yp: FloatArray
     rows: IntArray
+    calls: Sequence[str] = ()
 
 
 @dataclass(slots=True)
@@ -96,7 +97,10 @@ class Monitor:
         # After a bad residual IDA's next iterate is no number either: that says nothing about the model.
         if self.residuals != self.last_bad + 1 and np.isfinite(evaluator.y).all():
             rows = np.flatnonzero(bad).astype(np.int32)
-            self.offence = Offence(float(evaluator.t[0]), evaluator.y.copy(), evaluator.yp.copy(), rows)
+            calls = evaluator.external.without_value() if evaluator.external is not None else ()
+            self.offence = Offence(
+                float(evaluator.t[0]), evaluator.y.copy(), evaluator.yp.copy(), rows, calls
+            )
         self.last_bad = self.residuals
         self.non_finite += 1
         return True

@@ -70,9 +70,10 @@ def integration_failure(
     offence = monitor.offence
     if offence is not None and offence.t > t:
         rows: list[int] = offence.rows.tolist()
-        labels = listed([dae.row_labels[i] for i in rows], "; ")
+        labels = listed(offence.calls or [dae.row_labels[i] for i in rows], "; ")
         cause = f"no finite value at t = {offence.t:.9g} s: {labels}; {_state(dae, offence.y, offence.rows)}"
-        meaning, remedy = "an equation has no finite value", NO_FINITE
+        what = "an external function" if offence.calls else "an equation"
+        meaning, remedy = f"{what} has no finite value", NO_FINITE
     elif monitor.jacobian_offence is not None and monitor.jacobian_offence[0] > t:
         row = int(dae.sparsity.row[monitor.jacobian_offence[1]])
         column = int(np.searchsorted(dae.sparsity.colind, monitor.jacobian_offence[1], side="right")) - 1

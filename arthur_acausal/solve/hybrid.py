@@ -93,6 +93,8 @@ class HybridRun:
     def integrate(self) -> Trajectory:
         """Run to the end."""
         self._prepare()
+        if self._evaluator.external is not None:
+            self._evaluator.external.exact = False
         if self._ended is None:
             self._event({})  # what is true just after the start but not at it
         while self._ended is None:
@@ -201,6 +203,8 @@ class HybridRun:
         outcome = self._iteration.handle(flagged, near, jump, sample)
         self._schedule.update(t, t + near)
         self._affected = outcome.affected
+        if self._evaluator.external is not None:
+            self._evaluator.external.restart()
         self._stepping |= (bool(flagged) or due) and not outcome.affected
         if flagged or jump or due or outcome.events:
             self._events += outcome.events
@@ -251,6 +255,8 @@ class HybridRun:
         s.steps, s.rejected_steps = counts.steps, counts.rejected
         s.residual_evaluations, s.jacobian_evaluations = counts.residuals, counts.jacobians
         s.root_evaluations, s.non_finite_residuals = counts.roots, counts.non_finite
+        if self._evaluator.external is not None:
+            s.external_calls, s.external_s = self._evaluator.external.count, self._evaluator.external.seconds
         s.restarts = max(self._starts - 1, 0)
         s.output_s = perf_counter() - before
         s.total_s = perf_counter() - self._begun

@@ -36,8 +36,10 @@ def failure(
     residual = system.residual(system.unknowns()).copy()
     bad = np.flatnonzero(~np.isfinite(residual))
     if solved.reason == "not finite" or bad.size:
+        calls = evaluator.external.without_value() if evaluator.external is not None else ()
+        told = listed(calls or [rows[i] for i in bad.tolist()], "; ")
         return InitializationError(
-            f"at t = {evaluator.t[0]:g} s these have no finite value: {listed([rows[i] for i in bad.tolist()], '; ')}",
+            f"at t = {evaluator.t[0]:g} s these have no finite value: {told}",
             cause=f"the values there are {_values(dae, evaluator, bad)}",
             remedy=remedy,
         )

@@ -125,6 +125,30 @@ class Pattern(Protocol):
     def row(self) -> IntArray: ...
 
 
+class External(Protocol):
+    """The external functions of a model; kernels call them."""
+
+    exact: bool  # whether derivatives are to be exact: else stale or approximate ones serve
+
+    @property
+    def count(self) -> int:
+        """Evaluations so far."""
+        ...
+
+    @property
+    def seconds(self) -> float:
+        """Wall time in them and their derivatives, s."""
+        ...
+
+    def restart(self) -> None:
+        """Take notice that an event has been handled."""
+        ...
+
+    def without_value(self) -> Sequence[str]:
+        """The calls whose latest outputs are not all finite."""
+        ...
+
+
 class Evaluator(Protocol):
     """The kernels with their pinned arguments: write the arguments, call, read the (always same) result array."""
 
@@ -169,6 +193,8 @@ class Evaluator(Protocol):
     def initial(self) -> Kernel: ...
     @property
     def initial_jacobian(self) -> Kernel: ...
+    @property
+    def external(self) -> External | None: ...
 
 
 class DAE(Protocol):

@@ -22,6 +22,7 @@ class Statistics:
     jacobian_evaluations : by IDA; each is followed by one factorisation.
     root_evaluations : evaluations of the relations that make state events.
     non_finite_residuals : residual evaluations with a value that is no finite number.
+    external_calls, external_s : evaluations of external functions; wall time in these and their derivatives, s.
     restarts : how often integration started anew after an event; events that change no equation need none.
     events, state_events, time_events : instants at which something happened, and the two kinds.
     initial_iterations : Newton iterations of the initialisation.
@@ -40,6 +41,8 @@ class Statistics:
     jacobian_evaluations: int = 0
     root_evaluations: int = 0
     non_finite_residuals: int = 0
+    external_calls: int = 0
+    external_s: float = 0.0
     restarts: int = 0
     events: int = 0
     state_events: int = 0

@@ -123,6 +123,13 @@ def _differentiated(row: Row, nodes: Nodes, linear: LinearAnalysis, evaluator: E
         return symbols[plain]
 
     value = evaluator(row, symbol)
+    if row.expression.through is not None:
+        raise StructureError(
+            f"{row.text}: must be differentiated, but it calls an external function",
+            cause="a constraint between states goes through the function, whose derivative in time is not known",
+            remedy="let the function give the highest derivative (accelerations, not positions), or put an element "
+            "with a state of its own (a spring, a volume) between the function and what it is rigidly joined to",
+        )
     total = SX(0.0)
     for ref, own in list(symbols.items()):
         slope = ca.jacobian(value, own)

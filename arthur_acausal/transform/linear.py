@@ -88,4 +88,7 @@ def _coefficients(expression: Expression) -> dict[int, Coefficient]:
             found[position] = None
         else:
             found[position] = entry
+    for position in expression.through or ():
+        if expression.atoms[position].kind in ("variable", "der"):
+            found[position] = None
     return found

@@ -17,7 +17,7 @@ from arthur_acausal.transform.alias import Aliases
 from arthur_acausal.transform.linear import Coefficient, LinearAnalysis
 
 RefKind: TypeAlias = Literal[
-    "node", "parameter", "input", "discrete", "pre", "mode", "time", "zero", "initial", "homotopy"
+    "node", "parameter", "input", "discrete", "pre", "mode", "time", "zero", "initial", "homotopy", "external"
 ]
 
 

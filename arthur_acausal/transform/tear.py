@@ -8,7 +8,7 @@ from arthur_acausal.errors import StructureError
 from arthur_acausal.graph import TearingResult, blt, conflicts, matching, tear
 from arthur_acausal.transform.index import ReducedSystem, not_matching
 from arthur_acausal.transform.linear import Coefficient
-from arthur_acausal.transform.rows import Nodes
+from arthur_acausal.transform.rows import Nodes, Row
 
 LONGEST = 8  # assignments in a row within a torn block
 
@@ -55,12 +55,16 @@ def causalise(system: ReducedSystem, nodes: Nodes) -> CausalSystem:
         {place[n] for n, c in e.items() if c is not None and n in place and n not in rates}
         for e in system.edges
     ]
-    algebraic = [[v for v in row if unknown[v] not in rates] for row in edges]
+    needed = [
+        _ordered(_with_inputs(row, e), place, rates) if row.expression.through is not None else own
+        for row, e, own in zip(system.rows, system.edges, edges, strict=True)
+    ]
+    algebraic = [[v for v in row if unknown[v] not in rates] for row in needed]
     assignments: list[Assignment] = []
     torn: list[int] = []
     residuals: list[int] = []
     sizes: list[tuple[int, int]] = []
-    blocks = blt(edges, assigned)
+    blocks = blt(needed, assigned)
     for block in blocks:
         inside = [assigned[e] for e in block if unknown[assigned[e]] not in rates]
         result = _shortened(tear(block, inside, algebraic, solvable), algebraic)
@@ -73,6 +77,11 @@ def causalise(system: ReducedSystem, nodes: Nodes) -> CausalSystem:
             sizes.append((len(block), len(result.torn_variables)))
     chained = [n for n in states if nodes.derivative[n] in is_state]
     return CausalSystem(states, torn, assignments, sorted(residuals), chained, sizes, len(blocks))
+
+
+def _with_inputs(row: Row, edges: dict[int, Coefficient]) -> dict[int, Coefficient]:
+    """Return the unknowns of a row and of all inputs of its external function: a call gives all outputs at once."""
+    return {r.number: None for r in row.refs if r.kind == "node"} | edges
 
 
 def _shortened(result: TearingResult, edges: list[list[int]]) -> TearingResult:

@@ -257,6 +257,7 @@ class HandmadeEvaluator:
         values = [a.value for a in dae.assignments]
         self.when_values = Kernel("when_values", arguments, casadi.densify(_column(values)))
         self.sample_inputs = Kernel("sample_inputs", arguments, casadi.densify(_column([])))
+        self.external = None
         self.sample_times = Kernel("sample_times", arguments, casadi.densify(_column([])))
         self.initial = Kernel("initial", arguments, casadi.densify(_column(dae.h)))
         self.initial_jacobian = Kernel("initial_jacobian", arguments, dae._J_init)

@@ -1,0 +1,159 @@
+"""External functions at run time: each called once where its inputs are new, between the kernels around it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import Any, Literal
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from arthur_acausal.codegen.kernel import Kernel
+from arthur_acausal.errors import SimulationError
+
+FloatArray = NDArray[np.float64]
+Need = Literal["", "values", "derivatives"]
+
+
+@dataclass(frozen=True, slots=True)
+class ExternalCall:
+    """One call of an external function; a system's calls stand in an order in which each has what it needs.
+
+    ``name``: of the kernel of its inputs, ``inputs`` without compilation; ``first``: of its outputs in e; ``slope``:
+    where its derivatives (n_outputs, n_inputs) begin in d, by rows.
+    """
+
+    name: str
+    label: str
+    where: str
+    function: Any
+    inputs: ca.Function = field(repr=False)
+    first: int
+    slope: int
+
+
+class _Step:
+    """A call with its own copy of the function, and views of its part of e and d."""
+
+    __slots__ = ("call", "exact", "function", "inputs", "key", "outputs", "slope_key", "slopes")
+
+    def __init__(self, call: ExternalCall, kernel: Kernel, e: FloatArray, d: FloatArray) -> None:
+        self.call, self.inputs = call, kernel
+        self.function = call.function.fresh()
+        n, m = self.function.n_outputs, self.function.n_inputs
+        self.outputs = e[call.first : call.first + n]
+        self.slopes = d[call.slope : call.slope + n * m].reshape(n, m)
+        self.exact = getattr(self.function, "exact_derivative", self.function.derivative)
+        self.key: bytes | None = None  # inputs of the outputs, and of the derivatives, that stand there
+        self.slope_key: tuple[bytes | None, bool] | None = None
+
+
+class Calls:
+    """All external functions of one evaluator.
+
+    ``exact``: whether derivatives are to be exact; ``count``, ``seconds``: evaluations so far and the time in them,
+    derivatives included.
+    """
+
+    def __init__(
+        self,
+        calls: Sequence[ExternalCall],
+        functions: Mapping[str, ca.Function],
+        arguments: Sequence[FloatArray],
+        e: FloatArray,
+        d: FloatArray,
+    ) -> None:
+        self.exact = True
+        self.count, self.seconds = 0, 0.0
+        self._t = arguments[0]
+        self._steps = [_Step(c, Kernel(functions.get(c.name, c.inputs), arguments), e, d) for c in calls]
+
+    def evaluate(self) -> None:
+        """Bring the outputs up to date with the arguments."""
+        for step in self._steps:
+            inputs = step.inputs()
+            key = inputs.tobytes()
+            if key != step.key:
+                step.key = None
+                self._run(step, step.function.evaluate, inputs, step.outputs)
+                self.count += 1
+                step.key = key
+
+    def differentiate(self) -> None:
+        """Bring outputs and derivatives up to date with the arguments."""
+        self.evaluate()
+        for step in self._steps:
+            key = (step.key, self.exact)
+            if key != step.slope_key:
+                step.slope_key = None
+                method = step.exact if self.exact else step.function.derivative
+                self._run(step, method, step.inputs.result, step.slopes)
+                step.slope_key = key
+
+    def restart(self) -> None:
+        """An event has been handled: stale derivatives may be renewed."""
+        for step in self._steps:
+            step.slope_key = None
+            renew = getattr(step.function, "restart", None)
+            if renew is not None:
+                renew()
+
+    def without_value(self) -> list[str]:
+        """Return the calls whose latest outputs are not all finite numbers."""
+        return [s.call.label for s in self._steps if not np.isfinite(s.outputs).all()]
+
+    def before(self, kernel: Kernel, need: Need) -> Callable[[], FloatArray]:
+        """Return a kernel that is preceded by the calls that it needs."""
+        if not need:
+            return kernel
+        prepare = self.evaluate if need == "values" else self.differentiate
+
+        def prepared() -> FloatArray:
+            prepare()
+            return kernel()
+
+        return prepared
+
+    def _run(self, step: _Step, method: Callable[..., None], inputs: FloatArray, out: FloatArray) -> None:
+        begun = perf_counter()
+        try:
+            method(inputs, out)
+        except Exception as error:
+            raise SimulationError(
+                f"{step.call.label} failed at t = {float(self._t[0]):.9g} s: {type(error).__name__}: {error}",
+                cause="the external function raised",
+                remedy="let it write NaN where it has no value: the integrator then takes a shorter step",
+            ) from error
+        finally:
+            self.seconds += perf_counter() - begun
+
+
+def completed(
+    calls: Sequence[ExternalCall],
+    arguments: Sequence[FloatArray],
+    sizes: tuple[int, int],
+    need: Need = "values",
+) -> list[FloatArray]:
+    """Return the arguments of the kernels, each with a column a time, with those that external functions give.
+
+    ``sizes``: of e and d. Derivatives are exact; what is not needed is zero.
+    """
+    if not calls:
+        return list(arguments)
+    columns = [np.asarray(a, dtype=float) for a in arguments]
+    columns = [a.reshape(-1, 1) if a.ndim < 2 else a for a in columns]
+    count = columns[1].shape[1]
+    e, d = (np.zeros((size, count)) for size in sizes)
+    if need:
+        point = [np.zeros(a.shape[0]) for a in columns] + [np.zeros(size) for size in sizes]
+        own = Calls(calls, {}, point, *point[-2:])
+        prepare = own.evaluate if need == "values" else own.differentiate
+        for k in range(count):
+            for array, column in zip(point, columns, strict=False):
+                array[:] = column[:, k]
+            prepare()
+            e[:, k], d[:, k] = point[-2:]
+    return [*arguments, e, d]
