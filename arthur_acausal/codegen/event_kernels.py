@@ -38,7 +38,7 @@ def whens_of(
             number = len(whens)
             row = placed_row(dae, clause.condition, item)
             initial = starting and any(ref.kind == "initial" for ref in row.refs)
-            whens.append(WhenClause(label or "when", clause.where, clause.earlier, initial))
+            whens.append(WhenClause(label or "when", clause.where, clause.earlier, initial, item.path))
             conditions.append(dae.evaluator(row, look))
         for assignment in clause.assignments:
             text = f"{label} ({assignment.where})".lstrip()

@@ -145,6 +145,7 @@ def _functions(
             r.relation.where,
             r.relation.inclusive,
             time_only(g, a),
+            r.path,
         )
         for r, g in zip(dae.flat.relations, roots, strict=True)
     ]

@@ -16,12 +16,13 @@ IntArray = NDArray[np.int32]
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """A comparison that makes events: true where root function g > 0, or >= 0 if ``inclusive``."""
+    """A comparison that makes events: true where root function g > 0, or >= 0 if ``inclusive``; ``path``: whose."""
 
     label: str
     where: str
     inclusive: bool
     time_only: bool
+    path: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +36,7 @@ class WhenClause:
     where: str
     earlier: int = 0
     initial: bool = False
+    path: str = ""
 
 
 @dataclass(frozen=True, slots=True)

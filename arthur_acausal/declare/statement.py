@@ -10,6 +10,7 @@ import casadi as ca
 from casadi import SX
 
 from arthur_acausal.declare.model import Connector, Model
+from arthur_acausal.declare.readable import readable
 from arthur_acausal.declare.scope import Relation, Scope, current_scope
 from arthur_acausal.errors import DeclarationError
 
@@ -149,7 +150,7 @@ def event_condition(scope: Scope, condition: SX) -> SX:
     op = condition.op()
     if op in (ca.OP_LT, ca.OP_LE):
         left, right = condition.dep(0), condition.dep(1)
-        relation = Relation(right - left, op == ca.OP_LE, "", str(condition))
+        relation = Relation(right - left, op == ca.OP_LE, "", readable(condition))
         scope.relations.append(relation)
         return scope.symbol("mode", len(scope.relations) - 1)
     if op == ca.OP_NOT:

@@ -233,7 +233,7 @@ class EventIteration:
                 outcome.terminate = a.message
         for number in np.flatnonzero(rising).tolist():
             when = dae.whens[number]
-            outcome.events.append(Event(float(evaluator.t[0]), when.label, kind="when", where=when.where))
+            outcome.events.append(Event(float(evaluator.t[0]), when.label, when.path, "when", when.where))
         return reset or not np.array_equal(before, evaluator.z), reset
 
     def _solve(self, outcome: Outcome) -> None:
@@ -264,7 +264,7 @@ class EventIteration:
             relation = self._dae.relations[k]
             what = f"{relation.label} became {'true' if value else 'false'}"
             kind = "time" if self._scheduled[k] else "state"
-            entries.append(Event(t, what, kind=kind, where=relation.where))
+            entries.append(Event(t, what, relation.path, kind, relation.where))
         outcome.events[:0] = entries
 
     def _unsettled(self, moving: Index) -> SimulationError:

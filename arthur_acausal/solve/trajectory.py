@@ -22,7 +22,7 @@ class Event:
     ----------
     time : s.
     what : in words.
-    path : the component or variable that it belongs to; may be empty where `what` names it.
+    path : the component that it belongs to; empty for the model itself.
     kind : "state" or "time" (a relation changed), "when" (a clause acted) or "input" (a table jumps).
     where : file and line of the relation or clause.
     """

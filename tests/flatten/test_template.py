@@ -97,6 +97,7 @@ def test_events_name_the_instance() -> None:
     texts = [e.what for e in solution.events if e.kind == "state"]
     assert any("cells[2]" in text for text in texts)
     assert not any("cells[0]" in text and "cells[1]" in text for text in texts)
+    assert {e.path for e in solution.events} == {f"cells[{k}]" for k in range(3)}
 
 
 def test_what_depends_on_the_instance_is_not_shared() -> None:

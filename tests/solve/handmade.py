@@ -63,6 +63,7 @@ class Relation:
     inclusive: bool = False
     time_only: bool = False
     where: str = "test.py:1"
+    path: str = "part"
     s: Any = None
 
     def __post_init__(self) -> None:
@@ -88,6 +89,7 @@ class When:
     where: str = "test.py:2"
     earlier: int = 0
     initial: bool = False
+    path: str = "part"
 
 
 def reinit(x: Variable, value: Any) -> tuple[str, Variable | None, Any]:
