@@ -41,8 +41,14 @@ from arthur_acausal.components.hydraulic.sources import (
     FlowSource,
     PressureSource,
 )
-from arthur_acausal.components.hydraulic.spool import CentreEdge, MeteringEdge, Spool
-from arthur_acausal.components.hydraulic.spool_valves import OpenCentreValve, Valve22, Valve33, Valve43
+from arthur_acausal.components.hydraulic.spool import CentreEdge, LoadSelector, MeteringEdge, Spool
+from arthur_acausal.components.hydraulic.spool_valves import (
+    LoadSensingValve,
+    OpenCentreValve,
+    Valve22,
+    Valve33,
+    Valve43,
+)
 from arthur_acausal.components.hydraulic.tank import Tank
 from arthur_acausal.components.hydraulic.two_port import TwoPort
 from arthur_acausal.components.hydraulic.volume import Volume
@@ -72,6 +78,8 @@ __all__ = [
     "Line",
     "LineSegment",
     "LinearResistance",
+    "LoadSelector",
+    "LoadSensingValve",
     "MeteringEdge",
     "OpenCentreValve",
     "Orifice",

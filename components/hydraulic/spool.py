@@ -15,7 +15,9 @@ from arthur_acausal import (
     real_output,
     variable,
 )
+from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.laws import clamp, turbulent_root
+from arthur_acausal.components.hydraulic.ports import HydraulicPort
 from arthur_acausal.components.hydraulic.two_port import TwoPort
 
 
@@ -82,3 +84,30 @@ class CentreEdge(MeteringEdge):
 
     def opening(self) -> SX:
         return self.x_max - clamp(fabs(self.x) - self.overlap, 0, self.x_max)
+
+
+class LoadSelector(Component):
+    """Passages in a spool that join ``port_l`` to ``port_a`` where x > 0 and to ``port_b`` where x < 0.
+
+    Laminar, of the conductance ``G`` [m^3/(s Pa)], changing over within +-``x_switch`` [m]: they signal the load's
+    pressure to a pump or a compensator (load sensing).
+    """
+
+    port_a = HydraulicPort()
+    port_b = HydraulicPort()
+    port_l = HydraulicPort()
+    fluid: Fluid = Fluid()
+    x: Real = real_input("m", default=0.0, nominal=1e-3)
+    G: Real = parameter("m^3/(s*Pa)", default=1e-9, min=0.0)
+    x_switch: Real = parameter("m", default=1e-6, min=0.0)
+    share: Real = variable("1", description="1 where port_a is joined, 0 where port_b is")
+    P_loss: Real = real_output("W", description="power turned to heat")
+
+    def equations(self) -> Equations:
+        a, b, load = self.port_a, self.port_b, self.port_l
+        yield self.share == clamp(0.5 + self.x / (2 * self.x_switch), 0, 1)
+        yield "passage from a", a.q == self.G * self.share * (a.p - load.p)
+        yield "passage from b", b.q == self.G * (1 - self.share) * (b.p - load.p)
+        yield "mass balance", a.q + b.q + load.q == 0
+        loss = self.fluid.throttling_loss
+        yield self.P_loss == loss(a.q, a.p, load.p) + loss(b.q, b.p, load.p)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from arthur_acausal import Component, Equations, Real, connect, real_input, real_output
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.ports import HydraulicPort
-from arthur_acausal.components.hydraulic.spool import CentreEdge, MeteringEdge, Spool
+from arthur_acausal.components.hydraulic.spool import CentreEdge, LoadSelector, MeteringEdge, Spool
 
 
 class Valve22(Component):
@@ -83,3 +83,17 @@ class OpenCentreValve(Valve43):
         yield connect(self.spool.x, self.edge_cc.x)
         yield connect(self.port_c1, self.edge_cc.port_a)
         yield connect(self.edge_cc.port_b, self.port_c2)
+
+
+class LoadSensingValve(Valve43):
+    """A ``Valve43`` whose ``port_l`` tells the pressure of the port that it feeds: A for x > 0, B for x < 0."""
+
+    port_l = HydraulicPort()
+    selector: LoadSelector = LoadSelector()
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield connect(self.spool.x, self.selector.x)
+        yield connect(self.port_a, self.selector.port_a)
+        yield connect(self.port_b, self.selector.port_b)
+        yield connect(self.selector.port_l, self.port_l)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import pi, sqrt
+from math import cos, pi, sqrt
 from typing import Any
 
 from arthur_acausal import Component, start
@@ -17,6 +17,8 @@ from arthur_acausal.components.hydraulic import (
     HydraulicMotor,
     LinearResistance,
     LineSegment,
+    LoadSelector,
+    LoadSensingValve,
     MeteringEdge,
     OpenCentreValve,
     PilotCheckValve,
@@ -291,6 +293,8 @@ def valve(kind: type[Valve22], *, one_sided: bool = False, switched: bool = Fals
         if issubclass(kind, Valve43):
             parts["edge_pb"] = MeteringEdge(**_edge(g, "pb", closes))
             parts["edge_bt"] = MeteringEdge(**_edge(g, "bt", opens))
+        if issubclass(kind, LoadSensingValve):
+            parts["selector"] = LoadSelector(G=1e-8)
         if issubclass(kind, OpenCentreValve):
             parts["edge_cc"] = CentreEdge(x_max=x_max, **_edge(g, "cc"))
         command = g("in", 0.0) if switched else g("in", 0.0) / x_max
@@ -326,5 +330,18 @@ def ramp(g: Given) -> blocks.Ramp:
 
 
 def sine(g: Given) -> blocks.Sine:
-    offset, amplitude = g("y_offset", g("y_0", 0.0)), g("y_A", 1.0)
-    return blocks.Sine(f=g("f", 1.0), amplitude=amplitude, offset=offset, start_time=g("t_start", 0.0))
+    """Return a sine; what Hopsan names an offset is a time."""
+    f = g("f", 1.0)
+    return blocks.Sine(
+        f=f, amplitude=g("y_A", 1.0), phase=-2 * pi * f * g("y_offset", 0.0), start_time=g("t_start", 0.0)
+    )
+
+
+def soft_step(g: Given) -> blocks.TimeTable:
+    """Return half a cosine from one level to the other, in 100 straight pieces."""
+    begin, end, low, height = g("t_start", 1.0), g("t_end", 2.0), g("y_0", 0.0), g("y_A", 1.0)
+    shares = [k / 100 for k in range(101)]
+    return blocks.TimeTable(
+        times=tuple(begin + share * (end - begin) for share in shares),
+        values=tuple(low + height * (1 - cos(pi * share)) / 2 for share in shares),
+    )

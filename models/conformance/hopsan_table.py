@@ -13,6 +13,7 @@ from arthur_acausal.components.hydraulic import (
     ControlledFlowSource,
     FlowSource,
     LinearResistance,
+    LoadSensingValve,
     OpenCentreValve,
     PressureSensor,
     Valve22,
@@ -60,7 +61,13 @@ CENTRE = P_A_B_T | {"PC1": "port_c1", "PC2": "port_c2"}
 
 SCALES: dict[str, Callable[[Given], float]] = {
     kind: lambda g: 1 / g("x_vmax", 0.01)
-    for kind in ("Hydraulic22Valve", "Hydraulic33Valve", "Hydraulic43Valve", "HydraulicOpenCenterValve")
+    for kind in (
+        "Hydraulic22Valve",
+        "Hydraulic33Valve",
+        "Hydraulic43Valve",
+        "Hydraulic43LoadSensingValve",
+        "HydraulicOpenCenterValve",
+    )
 }
 """Types whose input ``in`` is a position [m], ours a share of the stroke: the factor between them."""
 
@@ -124,6 +131,9 @@ _HYDRAULIC: dict[str, Counterpart] = {
     "Hydraulic33Valve": Counterpart(make.valve(Valve33), P_A_T, SPOOL),
     "Hydraulic42DirectionalValve": Counterpart(make.valve(Valve43, switched=True), P_A_B_T, SPOOL),
     "Hydraulic43Valve": Counterpart(make.valve(Valve43), P_A_B_T, SPOOL),
+    "Hydraulic43LoadSensingValve": Counterpart(
+        make.valve(LoadSensingValve), P_A_B_T | {"PL": "port_l"}, SPOOL
+    ),
     "HydraulicOpenCenterValve": Counterpart(make.valve(OpenCentreValve), CENTRE, SPOOL),
     "HydraulicPressureSensor": Counterpart(
         lambda g: PressureSensor(fluid=g.fluid), {"P1": "port"}, {"out": "p"}
@@ -141,7 +151,10 @@ _MECHANIC: dict[str, Counterpart] = {
         lambda g: LoadForce(F=g("F", 0.0)), {"P1": "flange"}, {"F": "F"}, stores=True
     ),
     "MechanicFixedPosition": Counterpart(
-        lambda g: translational.Fixed(s0=g.start("P1", "Position")), {"P1": "flange"}
+        lambda g: translational.Fixed(s0=g.start("Pm1", "Position")), {"Pm1": "flange"}
+    ),
+    "MechanicVelocityTransformer": Counterpart(
+        lambda g: translational.SpeedSource(v=g("v", 0.0)), {"Pm1": "flange"}, {"v": "v"}
     ),
     "MechanicPositionSensor": Counterpart(
         lambda g: translational.PositionSensor(), {"P1": "flange"}, {"out": "s"}
@@ -156,7 +169,7 @@ _MECHANIC: dict[str, Counterpart] = {
         lambda g: rotational.SpeedSensor(), {"P1": "flange"}, {"out": "w"}
     ),
     "MechanicAngularVelocityTransformer": Counterpart(
-        lambda g: rotational.SpeedSource(w=g("omega", 0.0)), {"P1": "flange"}, {"omega": "w"}
+        lambda g: rotational.SpeedSource(w=g("omega", 0.0)), {"out": "flange"}, {"omega": "w"}
     ),
 }
 
@@ -168,6 +181,26 @@ _SIGNAL: dict[str, Counterpart] = {
     ),
     "SignalRamp": Counterpart(make.ramp, signals=SOURCE),
     "SignalPulse": Counterpart(make.pulse, signals=SOURCE),
+    "SignalPulseWave": Counterpart(
+        lambda g: blocks.Pulse(
+            offset=g("y_0", 0.0),
+            amplitude=g("y_A", 1.0),
+            start_time=g("t_start", 0.0),
+            period=g("dT", 1.0),
+            duty=g("D", 0.5),
+        ),
+        signals=SOURCE,
+    ),
+    "SignalSquareWave": Counterpart(
+        lambda g: blocks.Pulse(  # from the base down before the start as well: an edge at most
+            offset=g("y_0", 0.0) - g("y_A", 1.0),
+            amplitude=2 * g("y_A", 1.0),
+            start_time=g("t_start", 0.0),
+            period=1 / g("f", 1.0),
+        ),
+        signals=SOURCE,
+    ),
+    "SignalSoftStep": Counterpart(make.soft_step, signals=SOURCE),
     "SignalSineWave": Counterpart(make.sine, signals=SOURCE),
     "SignalGain": Counterpart(lambda g: blocks.Gain(k=g("k", 1.0), u=g("in", 0.0)), signals=SISO),
     "SignalAdd": Counterpart(lambda g: blocks.Add(u1=g("in1", 0.0), u2=g("in2", 0.0)), signals=TWO_IN),
@@ -181,7 +214,7 @@ _SIGNAL: dict[str, Counterpart] = {
         lambda g: blocks.Integrator(u=g("in", 0.0), y_start=g("out", 0.0)), signals=SISO
     ),
     "SignalSaturation": Counterpart(
-        lambda g: blocks.Limiter(u=g("in", 0.0), y_min=g("y_limlow", -1.0), y_max=g("y_limup", 1.0)),
+        lambda g: blocks.Limiter(u=g("in", 0.0), y_min=g("y_lower", -1.0), y_max=g("y_upper", 1.0)),
         signals=SISO,
     ),
     "SignalAbsoluteValue": Counterpart(lambda g: blocks.Abs(u=g("in", 0.0)), signals=SISO),
