@@ -27,6 +27,8 @@ from arthur_acausal.components.translational import (
     Damper,
     EndStops,
     Fixed,
+    ForceSource,
+    Lever,
     Mass,
     MassWithFriction,
     PowerSensor,
@@ -36,6 +38,7 @@ from arthur_acausal.components.translational import (
     SlidingMass,
     Spring,
     SpringDamper,
+    StoppedMass,
     SupportFriction,
 )
 from arthur_acausal.models.examples.stick_slip import StickSlip
@@ -227,3 +230,48 @@ def test_a_mass_on_spring_and_damper_reaches_its_rest() -> None:
     t, w = 0.3, sqrt(50.0)
     solution = simulate(Hung(), t, options=PRECISE)
     assert solution.final("mass.s") == pytest.approx(0.1 + 0.2 * (1 - (1 + w * t) * exp(-w * t)), rel=1e-8)
+
+
+class Bounced(Component):
+    """A mass that a force drives against a rigid stop, and that is pulled away from it later."""
+
+    mass: StoppedMass = StoppedMass(
+        m=2.0, s_min=0.0, s_max=0.5, s=start(0.1, fixed=True), v=start(0.0, fixed=True)
+    )
+    force = ForceSource()
+    step: Step = Step.of("N")(offset=4.0, height=-6.0, start_time=1.0)
+
+    def equations(self) -> Equations:
+        yield connect(self.step.y, self.force.f)
+        yield connect(self.force.flange, self.mass.flange)
+
+
+def test_a_mass_stays_at_a_rigid_stop_until_it_is_pulled_away() -> None:
+    """s = 0.1 + t^2 until 0.5; at rest there; from 1 s on back, -(t - 1)^2/2, until 0 at 2 s."""
+    solution = translate(Bounced()).simulate(3.0, options=SolverOptions(rtol=1e-9))
+    assert float(solution.at(0.5, "mass.s")) == pytest.approx(0.35, rel=1e-7)
+    assert float(solution.at(0.9, "mass.s")) == pytest.approx(0.5, rel=1e-7)
+    assert float(solution.at(0.9, "mass.v")) == pytest.approx(0.0, abs=1e-12)
+    assert float(solution.at(0.9, "mass.f_stop")) == pytest.approx(-4.0)
+    assert float(solution.at(1.5, "mass.s")) == pytest.approx(0.375, rel=1e-7)
+    assert solution.final("mass.s") == pytest.approx(0.0, abs=1e-8)
+    assert solution.t[np.flatnonzero(solution["mass.stop"] == 1.0)[0]] == pytest.approx(0.4**0.5, rel=1e-7)
+
+
+class Levered(Component):
+    """A mass that a force moves through a lever of ratio -3."""
+
+    force = ConstantForce(f_constant=6.0)
+    lever: Lever = Lever(ratio=-3.0)
+    mass: Mass = Mass(m=2.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True))
+
+    def equations(self) -> Equations:
+        yield connect(self.force.flange, self.lever.flange_a)
+        yield connect(self.lever.flange_b, self.mass.flange)
+
+
+def test_a_lever_turns_force_into_way() -> None:
+    """The mass feels -F/3: s = -F/3/m t^2/2, and the other end moves a third of that, the other way."""
+    solution = translate(Levered()).simulate(2.0, options=SolverOptions(rtol=1e-9))
+    assert solution.final("mass.s") == pytest.approx(-2.0, rel=1e-7)
+    assert solution.final("lever.flange_a.s") == pytest.approx(2.0 / 3.0, rel=1e-7)
