@@ -73,11 +73,12 @@ def rig(name: str) -> tuple[Translation, tuple[str, ...]]:
 def test_mass_is_conserved_and_power_is_taken(name: str, data: st.DataObject) -> None:
     translation, ports = rig(name)
     pressures = [data.draw(PRESSURE) for _ in ports]
-    given_: dict[str, dict[str, Any]] = {"inputs": {}, "start": {}}
+    inputs: dict[str, Any] = {}
+    begin: dict[str, float] = {}
     for path, (low, high) in PARTS[name][1].items():
-        given_["start" if "." in path else "inputs"][f"part.{path}"] = data.draw(st.floats(low, high))
+        (begin if "." in path else inputs)[f"part.{path}"] = data.draw(st.floats(low, high))
     parameters = {f"sources[{i}].p": p for i, p in enumerate(pressures)}
-    solution = translation.simulate(1e-6, parameters=parameters, **given_)
+    solution = translation.simulate(1e-6, parameters=parameters, inputs=inputs, start=begin)
     flows = [float(solution.initial(f"part.{port}.q")) for port in ports]
     largest = max(abs(q) for q in flows)
     assert abs(sum(flows)) <= 1e-9 * largest
