@@ -56,6 +56,7 @@ class Translation:
         start: Mapping[str, Any] | None = None,
         options: SolverOptions | None = None,
         progress: Callable[[float], None] | None = None,
+        steady: bool = False,
     ) -> Solution:
         """Simulate from ``start_time`` to ``stop_time`` [s].
 
@@ -65,6 +66,7 @@ class Translation:
         parameters, start : values by path: SI numbers, text with a unit ("150 bar"), or pint quantities.
         inputs : external inputs by path: constants, functions of time, or tables.
         progress : called with the present time about ten times a second.
+        steady : begin at rest, see `steady_state`; initial conditions and start values are where it is sought from.
 
         Raises
         ------
@@ -73,17 +75,26 @@ class Translation:
         """
         from arthur_acausal.result.simulated import run
 
+        chosen = _options(options, tolerance)
+        begin = None
+        if steady:
+            from arthur_acausal.analysis.steady import steady_state
+
+            begin = steady_state(
+                self.dae, time=start_time, parameters=parameters, inputs=inputs, start=start, options=chosen
+            ).begin()
         return run(
             self.dae,
             self.model,
             stop_time=stop_time,
             start_time=start_time,
-            options=_options(options, tolerance),
+            options=chosen,
             parameters=parameters,
             inputs=inputs,
             start=start,
             progress=progress,
             variant=self._variant,
+            begin=begin,
         )
 
     def _variant(self, dummies: frozenset[int], continuation: bool) -> CompiledDAE:

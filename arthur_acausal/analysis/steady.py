@@ -27,11 +27,13 @@ from arthur_acausal.solve.newton import newton
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import FloatArray
 from arthur_acausal.solve.simulate import initial_point
+from arthur_acausal.solve.statistics import Statistics
 from arthur_acausal.solve.trajectory import Trajectory
 
 NULL = 1e-10  # singular value of the scaled matrix, to its largest, below which a direction is free
 PART = 1e-6  # a state takes part in a free direction from this part of the largest on
-TURNING = 1e-9  # a rate [nominal/s] from which on a free state is said to drift
+TURNING = 1e-7  # a rate [nominal/s] from which on a free state is said to drift; below, it takes months
+LASTING = 1e3  # s: for so long at most
 STEPS = 80  # of the pseudo-transient
 FIRST, GROWTH, SHRINK = 1e-4, 4.0, 0.1  # s; factors of the step after a success and a failure
 LONG = 1e2  # s: from this step on Newton's method for the rest is tried again
@@ -57,6 +59,17 @@ class SteadyState:
 
     def __getitem__(self, path: str) -> float:
         return self.values[path]
+
+    def begin(self) -> Trajectory:
+        """The point as the beginning of a run, with what is to be told of it."""
+        held = [f"{path} = {self.values[path]:g}" for path in self.free if path not in self.drifts]
+        moving = [f"{path} (by {rate:g} a second)" for path, rate in self.drifts.items()]
+        messages = [f"at rest, but the equations leave free: {listed(held)}"] if held else []
+        messages += [f"at rest, but these move on steadily: {listed(moving)}"] if moving else []
+        statistics = Statistics(
+            initial_iterations=self.iterations, initial_method=f"rest by {self.method}", messages=messages
+        )
+        return replace(self.point, statistics=statistics)
 
 
 @dataclass(slots=True)
@@ -190,13 +203,14 @@ class _Search:
         return False
 
     def _lasting(self, system: _Rest, w: FloatArray) -> bool:
-        """Whether what drifts can go on: F is still zero when it has moved by its own size."""
+        """Whether what drifts can go on: F is still zero when all of it has moved by its own size."""
         n, e = self.dae.n, self.evaluator
         drift = np.where(self.dae.differential, self.null @ w[n:], 0.0)
-        speed = float(np.max(np.abs(drift) / self.scale, initial=0.0))
-        if speed <= TURNING:
+        speed = np.abs(drift) / self.scale
+        turning = speed > TURNING
+        if not turning.any():
             return True
-        e.y[:] = w[:n] + drift / speed
+        e.y[:] = w[:n] + drift * min(1.0 / float(speed[turning].min()), LASTING)
         holds = self._holds(e.residual())
         system.residual(w)
         return holds

@@ -127,6 +127,7 @@ def simulate(
         str | None, typer.Option(metavar="TIME", help="Length of an output interval.")
     ] = None,
     max_step: Annotated[str | None, typer.Option(metavar="TIME", help="Longest step of the solver.")] = None,
+    steady: Annotated[bool, typer.Option("--steady", help="Begin at rest, sought from the start.")] = False,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE.nc", help="Write all variables (NetCDF).")
     ] = None,
@@ -158,6 +159,7 @@ def simulate(
             output=output,
             picture=picture,
             verify=verify,
+            steady=steady,
             as_json=as_json,
         )
     )

@@ -42,6 +42,7 @@ class Request:
     output: Path | None = None
     picture: Path | None = None
     verify: bool = False
+    steady: bool = False
     as_json: bool = False
 
 
@@ -105,6 +106,7 @@ def run(request: Request, translation: Translation, parameters: dict[str, float 
             start=start,
             options=options(request),
             progress=report,
+            steady=request.steady,
         )
 
 

@@ -30,24 +30,32 @@ class Piece:
 
 
 def simulate_pieces(
-    dae: CompiledDAE, variant: Variant | None, pieces: list[Piece], *, start_time: float, **arguments: Any
+    dae: CompiledDAE,
+    variant: Variant | None,
+    pieces: list[Piece],
+    *,
+    start_time: float,
+    begin: Trajectory | None = None,
+    **arguments: Any,
 ) -> None:
     """Simulate, appending to ``pieces``; a failing run raises, and what was finished before it stays there.
 
-    ``arguments`` are those of ``simulate``.
+    ``begin``: consistent values to begin with, of ``dae``. ``arguments`` are those of ``simulate``.
     """
     if dae.sets is None or variant is None:
-        pieces.append(Piece(dae, simulate(dae, start_time=start_time, **arguments)))
+        pieces.append(Piece(dae, simulate(dae, start_time=start_time, begin=begin, **arguments)))
         return
     grid = arguments["options"].grid(start_time, arguments["stop_time"])
     start = arguments.pop("start")
-    sets, guessed = dae.sets, _entries_of_guess(dae, arguments.get("parameters"), start)
-    if sets.margin(guessed, dae.dummies) <= LEAVE_AT:
-        dae = variant(sets.choose(guessed), False)
-    point = Piece(dae, initial_point(dae, start_time=start_time, start=start, **arguments))
+    sets = dae.sets
+    if begin is None:
+        guessed = _entries_of_guess(dae, arguments.get("parameters"), start)
+        if sets.margin(guessed, dae.dummies) <= LEAVE_AT:
+            dae = variant(sets.choose(guessed), False)
+    point = Piece(dae, begin or initial_point(dae, start_time=start_time, start=start, **arguments))
     current, given = dae, start
     entries = _entries(point)
-    if sets.margin(entries, dae.dummies) <= LEAVE_AT:
+    if begin is not None or sets.margin(entries, dae.dummies) <= LEAVE_AT:
         current = variant(sets.choose(entries), True)
         given = _values_at_end(point, current)
     time = start_time

@@ -118,10 +118,12 @@ def run(
     start: Mapping[str, Any] | None,
     progress: Callable[[float], None] | None,
     variant: Variant | None = None,
+    begin: Trajectory | None = None,
 ) -> Solution:
     """Simulate and return the solution.
 
-    ``variant`` compiles the model for another set of states, where one may become singular.
+    ``variant`` compiles the model for another set of states, where one may become singular. ``begin``: consistent
+    values to begin with.
     Raises SimulationError or Interrupted, whose ``solution`` holds what was computed, where the run stops
     early.
     """
@@ -147,6 +149,7 @@ def run(
             parameters=parameters,
             start=start,
             progress=progress,
+            begin=begin,
         )
     except SolverFailure as error:
         if error.trajectory is not None:

@@ -16,7 +16,7 @@ from arthur_acausal.solve.diagnosis import listed
 from arthur_acausal.solve.events import EventIteration
 from arthur_acausal.solve.failure import integration_failure, suspect, too_many_steps
 from arthur_acausal.solve.ida import Ida, Stretch, load_ida
-from arthur_acausal.solve.initialize import initialize
+from arthur_acausal.solve.initialize import adopt, initialize
 from arthur_acausal.solve.inputs import Input, Inputs
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.options import SolverOptions
@@ -50,6 +50,7 @@ class HybridRun:
         start: Mapping[str, Any] | None,
         progress: Progress | None,
         grid: FloatArray | None = None,
+        begin: Trajectory | None = None,
     ) -> None:
         self._begun = perf_counter()
         load_ida()  # here, so that the time of the other phases does not depend on what was loaded before
@@ -74,14 +75,18 @@ class HybridRun:
         self._samples = Samples(dae, evaluator, start_time)
         self._accumulation = Accumulation(stop_time - start_time, options)
         self._recorder = Recorder()
+        self._begin = begin
         self._events: list[Event] = []
         self._ended: tuple[Status, str] | None = None
         self._stepping = self._affected = False
         self._starts = 0
 
     def initialize(self) -> None:
-        """Find consistent values at the start."""
-        done = initialize(self._dae, self._evaluator, self._attributes, self._modes, self._options)
+        """Find consistent values at the start, or take those that are given."""
+        if self._begin is not None:
+            done = adopt(self._begin, self._evaluator, self._modes)
+        else:
+            done = initialize(self._dae, self._evaluator, self._attributes, self._modes, self._options)
         self._statistics.initial_iterations = done.iterations
         self._statistics.initial_method = done.method
         self._statistics.messages += done.messages

@@ -17,6 +17,7 @@ from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.newton import Solved
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator
+from arthur_acausal.solve.trajectory import Trajectory
 
 UNSETTLED = "the relations do not settle"
 
@@ -54,6 +55,15 @@ def initialize(
     Point.of(starting).restore(evaluator)
     _enter(dae, evaluator, attributes, modes, options)
     return done
+
+
+def adopt(point: Trajectory, evaluator: Evaluator, modes: Modes) -> Initialized:
+    """Take consistent values that are known already: the last row of a trajectory of the same model."""
+    evaluator.y[:], evaluator.yp[:] = point.y[-1], point.yp[-1]
+    evaluator.z[:], evaluator.m[:] = point.z[-1], point.m[-1]
+    modes.settle()
+    statistics = point.statistics
+    return Initialized(statistics.initial_iterations, statistics.initial_method, list(statistics.messages))
 
 
 def _enter(

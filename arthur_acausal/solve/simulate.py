@@ -28,6 +28,7 @@ def simulate(
     start: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
     grid: FloatArray | None = None,
+    begin: Trajectory | None = None,
 ) -> Trajectory:
     """Simulate a compiled model from start_time to stop_time, s.
 
@@ -38,6 +39,7 @@ def simulate(
     start : start values by path that override the model's.
     progress : called with the present time about ten times a second.
     grid : output times, both ends included; by default as the options say.
+    begin : consistent values at start_time, known already, as its last row; then `start` has no say.
 
     Raises
     ------
@@ -47,8 +49,8 @@ def simulate(
     UsageError : an argument cannot be used.
     """
     _check_times(start_time, stop_time)
-    chosen, begin, end = options or SolverOptions(), float(start_time), float(stop_time)
-    run = HybridRun(dae, begin, end, chosen, inputs or {}, parameters, start, progress, grid)
+    chosen, first, last = options or SolverOptions(), float(start_time), float(stop_time)
+    run = HybridRun(dae, first, last, chosen, inputs or {}, parameters, start, progress, grid, begin)
     run.initialize()
     try:
         return run.integrate()

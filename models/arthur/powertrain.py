@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from casadi import SX
 
-from arthur_acausal import Component, Equations, Real, Solution, connect, parameter, start
+from arthur_acausal import Component, Equations, Real, Solution, connect, der, parameter, start
 from arthur_acausal.components.blocks import EnergyMeter
 from arthur_acausal.components.hydraulic import (
     GPM,
@@ -50,7 +50,9 @@ class Powertrain(Component):
     Structural parameters: ``n`` actuators; ``variant``: "default", or "listing" for the printed Matlab
     code, or ``options`` for any mixture (see Options); ``audit``: ``energy_*.E`` [J] integrate the input,
     each loss and the work. Each energy comes from its own law, none is a difference: a flow q carries rho q
-    h(p), a volume stores V (rho h - p), h being the integral of dp/rho.
+    h(p), a volume stores V (rho h - p), h being the integral of dp/rho. ``balanced``: the pressures at the
+    start are no more than guesses; the pistons begin without acceleration under their loads, and the
+    manifold in balance with the pump's flow at its speed.
 
     Parameters: the report's top-level constants, which it does not give: the flow ``Q_req`` (1 gpm) at the
     speed ``N_0`` (5000 rpm) by which the pump is sized with the efficiency ``eta_v`` (or, consistently,
@@ -62,6 +64,7 @@ class Powertrain(Component):
     variant: str = "default"
     options: Options | None = None
     audit: bool = True
+    balanced: bool = False
     fluid: Fluid = Fluid()
     Q_req: Real = parameter("m^3/s", default=GPM, min=0.0, display="gpm", description="pump sizing; assumed")
     N_0: Real = parameter("rad/s", default=5000 * 2 * pi / 60, min=0.0, display="rpm", description="assumed")
@@ -83,7 +86,7 @@ class Powertrain(Component):
         if choice.supply == "battery":
             self.drive = BatteryDrive()
         self.pump = self._pump()
-        self.manifold = Volume(fluid=self.fluid, V=4.83e-6, p=start(P_START, fixed=True))
+        self.manifold = Volume(fluid=self.fluid, V=4.83e-6, p=start(P_START, fixed=not self.balanced))
         self.relief = ReliefValve(law=choice.relief_law)
         kind = Filter if choice.filter_drop == "own flow" else SignalFilter
         self.filter = kind(p_s=start(P_START))
@@ -97,7 +100,7 @@ class Powertrain(Component):
             k=choice.k_R,
             z=start(0.04, fixed=True),
             v=start(0.0, fixed=True),
-            p=start(P_START, fixed=True),
+            p=start(P_START, fixed=not self.balanced),
             p_g=start(P_START, fixed=choice.gas == "integrated"),
         )
         if self.audit:
@@ -127,8 +130,8 @@ class Powertrain(Component):
             A_B=choice.A_B,
             y=start(0.0, fixed=True),
             v=start(0.0, fixed=True),
-            p_A=start(P_START, fixed=True),
-            p_B=start(P_START, fixed=True),
+            p_A=start(P_START, fixed=not self.balanced),
+            p_B=start(P_START, fixed=not self.balanced),
         )
 
     def equations(self) -> Equations:
@@ -152,6 +155,12 @@ class Powertrain(Component):
             yield connect(self.motor.P_el, self.drive.P_el)
         if self.audit:
             yield from self._connect_meters()
+
+    def initial_equations(self) -> Equations:
+        if self.balanced:
+            yield "manifold in balance", der(self.manifold.p) == 0
+            for cylinder in self.cylinders:
+                yield "piston in balance", der(cylinder.v) == 0
 
     def _metered(self) -> list[tuple[str, list[SX]]]:
         """Return each meter's name and the signals [W] that it integrates."""

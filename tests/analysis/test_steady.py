@@ -63,3 +63,11 @@ def test_jack_rises_steadily() -> None:
     run = translation.simulate(0.5, tolerance=1e-9)
     assert rest.drifts == pytest.approx({"load.s": run.final("load.v")}, rel=1e-6)
     assert rest["ram.p"] == pytest.approx(4905.0 / 1e-3, rel=1e-9)
+
+
+def test_a_run_begins_at_rest() -> None:
+    solution = translate(Shaft()).simulate(2.0, steady=True)
+    assert solution["w"] == pytest.approx(6.0, rel=1e-12)
+    assert solution["phi"] == pytest.approx(0.25 + 6.0 * np.asarray(solution.t), rel=1e-9)
+    told = solution.statistics.messages
+    assert told == ["at rest, but these move on steadily: phi (by 6 a second)"]

@@ -142,6 +142,12 @@ def test_models_by_short_name_keep_it(arthur: Arthur) -> None:
     assert only_json(arthur("simulate", "examples.jack", "-t", "10ms", "--json"))["model"] == "examples.jack"
 
 
+def test_a_run_that_begins_at_rest(arthur: Arthur) -> None:
+    found = only_json(arthur("simulate", "examples.jack", "-t", "10ms", "--steady", "--json"))
+    assert found["statistics"]["initial_method"].startswith("rest by")
+    assert found["final"]["ram.p"] == pytest.approx(4905.0 / 1e-3)
+
+
 def test_parameters_structure_inputs_and_starts(arthur: Arthur, ball: str) -> None:
     options = ["--set", "g=2", "--set", "height=3", "--input", "wind=1 m/s^2", "--start", "v=50 cm/s"]
     final = only_json(arthur("simulate", ball, "-t", "1", *options, "--rtol", "1e-9", "--json"))["final"]

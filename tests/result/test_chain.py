@@ -79,3 +79,10 @@ def test_rotations_change_the_set_of_states_and_tell_so(pendulum: Translation) -
     assert solution.t[-1] == 3.0
     assert not solution.events  # a change of states is no event of the model
     assert np.all(np.diff(solution.t) >= 0.0)
+
+
+def test_a_run_begins_at_rest_below(pendulum: Translation) -> None:
+    solution = pendulum.simulate(1.0, start={"x": 0.3, "y": -0.95}, steady=True)
+    assert np.max(np.abs(solution["x"])) < 1e-9
+    assert solution["y"] == pytest.approx(-1.0, rel=1e-12)
+    assert solution["pull"] == pytest.approx(G, rel=1e-9)
