@@ -18,7 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from arthur_acausal.codegen.compiled import CompiledDAE, Evaluator
+from arthur_acausal.analysis.rest import Euler, Rest, dense, null_vectors, rates
+from arthur_acausal.codegen.compiled import CompiledDAE
 from arthur_acausal.errors import InitializationError
 from arthur_acausal.solve.diagnosis import listed
 from arthur_acausal.solve.inputs import Input, Inputs
@@ -30,7 +31,6 @@ from arthur_acausal.solve.simulate import initial_point
 from arthur_acausal.solve.statistics import Statistics
 from arthur_acausal.solve.trajectory import Trajectory
 
-NULL = 1e-10  # singular value of the scaled matrix, to its largest, below which a direction is free
 PART = 1e-6  # a state takes part in a free direction from this part of the largest on
 TURNING = 1e-7  # a rate [nominal/s] from which on a free state is said to drift; below, it takes months
 LASTING = 1e3  # s: for so long at most
@@ -70,57 +70,6 @@ class SteadyState:
             initial_iterations=self.iterations, initial_method=f"rest by {self.method}", messages=messages
         )
         return replace(self.point, statistics=statistics)
-
-
-@dataclass(slots=True)
-class _Rest:
-    """The bordered system for (y, r); works in place on the evaluator."""
-
-    evaluator: Evaluator
-    dae: CompiledDAE
-    null: FloatArray
-    origin: FloatArray
-    scale: FloatArray
-
-    def residual(self, w: FloatArray) -> FloatArray:
-        """F and the conditions on the free directions."""
-        n, e = self.dae.n, self.evaluator
-        e.y[:] = w[:n]
-        e.yp[:] = np.where(self.dae.differential, self.null @ w[n:], 0.0)
-        closing = self.null.T @ ((w[:n] - self.origin) / self.scale**2)
-        return np.concatenate([e.residual(), closing])
-
-    def matrix(self) -> FloatArray:
-        """[[F_y, F_yp N], [N^T / scale^2, 0]]."""
-        k = self.null.shape[1]
-        return np.block(
-            [
-                [_dense(self.dae, self.evaluator.jacobian_y()), _rates(self.dae, self.evaluator) @ self.null],
-                [self.null.T / self.scale**2, np.zeros((k, k))],
-            ]
-        )
-
-
-@dataclass(slots=True)
-class _Euler:
-    """F(t, y, (y - before) / h) = 0 for y."""
-
-    evaluator: Evaluator
-    dae: CompiledDAE
-    before: FloatArray
-    h: float
-
-    def residual(self, w: FloatArray) -> FloatArray:
-        """F after a step."""
-        e = self.evaluator
-        e.y[:] = w
-        e.yp[:] = np.where(self.dae.differential, (w - self.before) / self.h, 0.0)
-        return e.residual()
-
-    def matrix(self) -> FloatArray:
-        """dF/dy + dF/dy' / h."""
-        e = self.evaluator
-        return _dense(self.dae, e.jacobian_y()) + _rates(self.dae, e) / self.h
 
 
 def steady_state(
@@ -185,7 +134,7 @@ class _Search:
         for _ in range(self.options.max_event_iterations):
             self.null = self._free_directions()
             k = self.null.shape[1]
-            system = _Rest(e, self.dae, self.null, e.y.copy(), self.scale)
+            system = Rest(e, self.dae, self.null, e.y.copy(), self.scale)
             w = np.concatenate([e.y, np.zeros(k)])
             scale = np.concatenate([self.attributes.nominal, np.full(k, LOOSE)])
             low = np.concatenate([self.attributes.min, np.full(k, -np.inf)])
@@ -202,7 +151,7 @@ class _Search:
                 return True
         return False
 
-    def _lasting(self, system: _Rest, w: FloatArray) -> bool:
+    def _lasting(self, system: Rest, w: FloatArray) -> bool:
         """Whether what drifts can go on: F is still zero when all of it has moved by its own size."""
         n, e = self.dae.n, self.evaluator
         drift = np.where(self.dae.differential, self.null @ w[n:], 0.0)
@@ -215,11 +164,11 @@ class _Search:
         system.residual(w)
         return holds
 
-    def _undetermined(self, system: _Rest) -> FloatArray:
+    def _undetermined(self, system: Rest) -> FloatArray:
         """Null vectors of the bordered system: what Newton's method has left as it was, a speed without friction."""
         n, k = self.dae.n, system.null.shape[1]
         scale = np.concatenate([self.scale, np.ones(k)])
-        right = _null_vectors(system.matrix() * scale)[:n]
+        right = null_vectors(system.matrix() * scale)[:n]
         found: FloatArray = right * self.scale[:, None]
         return found
 
@@ -228,8 +177,8 @@ class _Search:
 
     def _holds(self, residual: FloatArray) -> bool:
         """Whether F is zero to within what changes of the unknowns by the tolerance make of it."""
-        matrix = np.abs(_dense(self.dae, self.evaluator.jacobian_y())) * self.scale
-        matrix += np.abs(_rates(self.dae, self.evaluator)) * self.scale
+        matrix = np.abs(dense(self.dae, self.evaluator.jacobian_y())) * self.scale
+        matrix += np.abs(rates(self.dae, self.evaluator)) * self.scale
         size = matrix.max(axis=1, initial=0.0)
         if not np.isfinite(size).all():
             return False
@@ -237,8 +186,8 @@ class _Search:
 
     def _free_directions(self) -> FloatArray:
         """Orthonormal null vectors (in scaled unknowns) of dF/dy, as columns in the unknowns' own units."""
-        matrix = _dense(self.dae, self.evaluator.jacobian_y()) * self.scale
-        found: FloatArray = _null_vectors(matrix) * self.scale[:, None]
+        matrix = dense(self.dae, self.evaluator.jacobian_y()) * self.scale
+        found: FloatArray = null_vectors(matrix) * self.scale[:, None]
         return found
 
     def _transient(self) -> bool:
@@ -246,7 +195,7 @@ class _Search:
         e, h = self.evaluator, FIRST
         for _ in range(STEPS):
             before = e.y.copy()
-            system = _Euler(e, self.dae, before, h)
+            system = Euler(e, self.dae, before, h)
             nominal, low, high = self.attributes.nominal, self.attributes.min, self.attributes.max
             solved = newton(system, before, nominal, low, high, self.options.newton_tolerance, 10)
             self.iterations += solved.iterations
@@ -282,7 +231,7 @@ class _Search:
     def _failure(self) -> InitializationError:
         e, dae = self.evaluator, self.dae
         e.yp[:] = 0.0
-        matrix = np.abs(_dense(dae, e.jacobian_y())) * self.scale + np.abs(_rates(dae, e)) * self.scale
+        matrix = np.abs(dense(dae, e.jacobian_y())) * self.scale + np.abs(rates(dae, e)) * self.scale
         scaled = np.abs(e.residual()) / np.maximum(matrix.max(axis=1, initial=0.0), np.finfo(float).tiny)
         worst = np.argsort(-np.nan_to_num(scaled, nan=np.inf), kind="stable")[:3].tolist()
         return InitializationError(
@@ -291,28 +240,3 @@ class _Search:
             cause="the model may have none: something accelerates or fills for ever, or oscillates",
             remedy="start nearer to it, or simulate until it is reached",
         )
-
-
-def _null_vectors(matrix: FloatArray) -> FloatArray:
-    """Return orthonormal null vectors as columns; rows are scaled to a largest entry of 1."""
-    if not np.isfinite(matrix).all():
-        return np.zeros((matrix.shape[1], 0))
-    rows = np.abs(matrix).max(axis=1, initial=0.0)
-    rows[rows == 0.0] = 1.0
-    _, values, right = np.linalg.svd(matrix / rows[:, None])
-    small = values <= NULL * max(float(values.max(initial=0.0)), np.finfo(float).tiny)
-    null: FloatArray = right[small].T
-    return null
-
-
-def _dense(dae: CompiledDAE, entries: FloatArray) -> FloatArray:
-    """Return the full matrix (n, n) of the entries of a Jacobian."""
-    matrix = np.zeros((dae.n, dae.n))
-    matrix[dae.sparsity.row, np.repeat(np.arange(dae.n), np.diff(dae.sparsity.colind))] = entries
-    return matrix
-
-
-def _rates(dae: CompiledDAE, evaluator: Evaluator) -> FloatArray:
-    """Return dF/dy'."""
-    evaluator.cj[0] = 1.0
-    return _dense(dae, evaluator.jacobian_yp())
