@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arthur_acausal.models.arthur.dimensions import LEGS
-from arthur_acausal.models.arthur.locomotion.controller import Controller, outputs_of
+from arthur_acausal.models.arthur.locomotion.controller import Controller
 from arthur_acausal.models.arthur.locomotion.rotation import about_z, euler_of
 
 FloatArray = NDArray[np.float64]
@@ -43,7 +43,7 @@ class Record:
     fell : time of the fall [s], or None. t : [s].
     position, velocity : of the trunk, the velocity in a level frame of its heading (n, 3).
     angles : roll, pitch, yaw (n, 3) [rad]. yaw_rate : [rad/s]. slip, loaded : slipping and standing feet, counted.
-    outputs : of the controller (n, m). torque : applied (n, 12) [N m]. joints, speeds : (n, 12).
+    joints, speeds : (n, 12). outputs : of the controller (n, m). torque : applied, mean over the period (n, 12) [N m].
     """
 
     fell: float | None
@@ -54,10 +54,10 @@ class Record:
     yaw_rate: FloatArray
     slip: FloatArray
     loaded: FloatArray
-    outputs: FloatArray
-    torque: FloatArray
     joints: FloatArray
     speeds: FloatArray
+    outputs: FloatArray
+    torque: FloatArray
 
 
 def start(model: Any, seed: int | None) -> Any:
@@ -120,45 +120,45 @@ def walk(
     """Let the robot walk for some time [s]; ``lag`` [s] is the time constant of the torques; it ends at a fall."""
     data = start(model, seed)
     feet = {model.geom(f"{leg}_foot").id: model.body(f"{leg}_calf").id for leg in LEGS}
-    trunk = model.body("trunk").id
-    torque_at = outputs_of(controller.configuration.settings)["torque"]
+    torque_at = controller.places["torque"]
     model.opt.timestep = STEP
     substeps = round(controller.configuration.settings.period / STEP)
     share = 1.0 - np.exp(-STEP / lag) if lag > 0.0 else 1.0
     rows: list[tuple[Any, ...]] = []
+    torque: FloatArray | None = None
     fell = None
-    torque = np.zeros(12)
     for _ in range(round(duration / STEP / substeps)):
         out = controller(data.time, read(model, data))
-        if not rows:
-            torque = out[torque_at].copy()
-        R = data.body("trunk").xmat.reshape(3, 3)
-        angles = euler_of(R)
-        level = about_z(angles[2]).T @ data.qvel[:3]
-        standing, sliding = slipping(model, data, feet)
-        rows.append(
-            (
-                data.time,
-                data.qpos[:3].copy(),
-                level,
-                angles,
-                (R @ data.qvel[3:6])[2],
-                sliding,
-                standing,
-                out,
-                torque.copy(),
-                data.qpos[7:].copy(),
-                data.qvel[6:].copy(),
-            )
-        )
-        if data.qpos[2] < FALLEN or R[2, 2] < 0.5:
+        asked = out[torque_at]
+        torque = asked.copy() if torque is None else torque
+        state = _state(model, data, feet)
+        applied = np.zeros(12)
+        for _ in range(substeps):
+            torque += share * (asked - torque)
+            applied += torque / substeps
+            _step(model, data, torque, push)
+        rows.append((*state, out, applied))
+        if data.qpos[2] < FALLEN or data.body("trunk").xmat[8] < 0.5:
             fell = data.time
             break
-        for _ in range(substeps):
-            torque += share * (out[torque_at] - torque)
-            data.qfrc_applied[6:] = torque
-            pushed = push is not None and push.start <= data.time < push.start + push.duration
-            data.xfrc_applied[trunk, :3] = push.force if push is not None and pushed else 0.0
-            mujoco.mj_step(model, data)
     columns: list[Any] = [np.array(column) for column in zip(*rows, strict=True)]
     return Record(fell, *columns)
+
+
+def _step(model: Any, data: Any, torque: FloatArray, push: Push | None) -> None:
+    data.qfrc_applied[6:] = torque
+    if push is not None:
+        pushed = push.start <= data.time < push.start + push.duration
+        data.xfrc_applied[model.body("trunk").id, :3] = push.force if pushed else 0.0
+    mujoco.mj_step(model, data)
+
+
+def _state(model: Any, data: Any, feet: dict[int, int]) -> tuple[Any, ...]:
+    """Return what a record keeps of the robot, in the record's order."""
+    R = data.body("trunk").xmat.reshape(3, 3)
+    angles = euler_of(R)
+    level = about_z(angles[2]).T @ data.qvel[:3]
+    yaw_rate = float(R[2] @ data.qvel[3:6])
+    standing, sliding = slipping(model, data, feet)
+    joints, speeds = data.qpos[7:].copy(), data.qvel[6:].copy()
+    return data.time, data.qpos[:3].copy(), level, angles, yaw_rate, sliding, standing, joints, speeds

@@ -62,13 +62,14 @@ class Controller:
     """The locomotion stack as a function of time and sensors, to be called at every period of the settings.
 
     ``fresh()`` gives a new one in its initial state, so that it serves as the function of ``sampled``. The inputs are
-    those of sensors.FIELDS, the outputs those of OUTPUTS; joints and feet in the order of JOINT_NAMES and LEGS.
+    those of sensors.FIELDS, the outputs those of outputs_of; joints and feet in the order of JOINT_NAMES and LEGS.
     """
 
     def __init__(self, configuration: Configuration | None = None) -> None:
         c = Configuration() if configuration is None else configuration
         self.configuration = c
         n, h = c.settings.horizon, c.settings.step
+        self.places = outputs_of(c.settings)
         self._read = Reader(c.noise, c.seed)
         self._estimate = Estimator(c.robot, c.settings, c.true_velocity)
         self._modulator = GaitModulator()
