@@ -60,8 +60,9 @@ class GaitModulator:
     ) -> None:
         """Advance by one period [s]; ``speed`` is |v_d| [m/s] with the yaw rate times the hips' radius."""
         if self._parked.all() and walking and not self.running:
-            self.gait, self.running, self._phase = gait, True, -period / (self.T_st + self.T_sw)
+            self.gait, self.running, self._phase = gait, True, 0.0
             self._parked[:] = False
+            period = 0.0
         self.running = self.running and walking and gait == self.gait
         self.T_sw = self.gait.swing_time
         self.T_st = stance_time(self.gait, half_step, speed, limits)
