@@ -76,7 +76,8 @@ class Figures:
     Attributes
     ----------
     fell : whether. speed_error : of the mean speed (or yaw rate), relative to the command.
-    roll_deg, pitch_deg : largest after the first second. slip_share : see the module. v_y : largest from 2 s after a push on [m/s].
+    roll_deg, pitch_deg : largest after the first second. slip_share : see the module.
+    v_y : largest from 2 s after a push on [m/s].
     push_N, pull_N : largest forces of the cylinders. flow_gpm, flow_peak_gpm : of the pistons, mean and peak.
     forecast_error : of the flow predicted 100 ms ahead, rms over the mean of the true one.
     lag_error : rms error of the torques over the rms of those asked. cpu_s_per_s : of the controller.

@@ -125,12 +125,12 @@ def walk(
     substeps = round(controller.configuration.settings.period / STEP)
     share = 1.0 - np.exp(-STEP / lag) if lag > 0.0 else 1.0
     rows: list[tuple[Any, ...]] = []
-    torque: FloatArray | None = None
+    torque = np.full(12, np.nan)
     fell = None
     for _ in range(round(duration / STEP / substeps)):
         out = controller(data.time, read(model, data))
         asked = out[torque_at]
-        torque = asked.copy() if torque is None else torque
+        torque = torque if rows else asked.copy()
         state = _state(model, data, feet)
         applied = np.zeros(12)
         for _ in range(substeps):

@@ -17,13 +17,13 @@ MASS = 9.88
 
 
 def record(
-    command: Command, duration: float, seed: int | None = 1, **changes: bool
+    command: Command, duration: float, seed: int | None = 1, true_velocity: bool = False
 ) -> tuple[Controller, Record]:
     """Let the robot walk on flat ground."""
     import mujoco
 
     model = mujoco.MjModel.from_xml_string(quadruped_mjcf())
-    controller = Controller(Configuration(Constant(command), seed=seed, **changes))
+    controller = Controller(Configuration(Constant(command), seed=seed, true_velocity=true_velocity))
     return controller, walk(model, controller, duration, seed=seed)
 
 

@@ -57,7 +57,7 @@ def textbook(
     x = np.array(
         [state.roll, state.pitch, state.yaw, *state.position, *state.rate, *state.velocity, SETTINGS.gravity]
     )
-    inputs, feet = [], []
+    inputs, feet, A_d = [], [], expm(SETTINGS.step * A)
     for k in range(N):
         standing = np.flatnonzero(stance[k])
         B = np.zeros((13, 3 * len(standing)))
@@ -67,7 +67,6 @@ def textbook(
         whole = np.zeros((13 + B.shape[1],) * 2)
         whole[:13, :13], whole[:13, 13:] = A, B
         discrete = expm(SETTINGS.step * whole)
-        A_d = discrete[:13, :13]
         inputs.append(discrete[:13, 13:])
         feet.append(len(standing))
     rows, free = [], []
