@@ -45,6 +45,7 @@ class Plan:
     folder: Path
     find: Callable[[str], type[Any]]
     _structures: dict[Structure, _Prepared] = field(default_factory=dict)
+    _names: dict[str, set[str]] = field(default_factory=dict)
 
     @cached_property
     def runs(self) -> list[Run]:
@@ -76,13 +77,18 @@ class Plan:
         return Task(run.number, prepared.job, found.values), found.columns
 
     def _structure(self, run: Run) -> Structure:
-        from arthur_acausal.request.settings import required_parameters, structural_parameters
-
-        kind = self.find(run.model)
-        names = {*structural_parameters(kind), *required_parameters(kind)}
+        names = self._structural_names(run.model)
         fixed = {p: _text(v) for p, v in self.specification.set.items() if p in names}
         varied = {p: _text(v) for p, v in run.values.items() if p in names}
         return run.model, tuple(sorted({**fixed, **varied}.items()))
+
+    def _structural_names(self, model: str) -> set[str]:
+        from arthur_acausal.request.settings import required_parameters, structural_parameters
+
+        if model not in self._names:
+            kind = self.find(model)
+            self._names[model] = {*structural_parameters(kind), *required_parameters(kind)}
+        return self._names[model]
 
     def _values(self, prepared: _Prepared, run: Run) -> _Found:
         """Sort a run's values into parameters, inputs and start values."""
@@ -91,7 +97,9 @@ class Plan:
             found.columns["model"] = run.model
         for path, value in run.values.items():
             prepared.place(path, value, found, self.folder)
-        known = {p: v for p, v in found.columns.items() if isinstance(v, float)} | dict(prepared.fixed)
+        known: dict[str, float] = {}
+        if self.specification.derive:
+            known = {p: v for p, v in found.columns.items() if isinstance(v, float)} | dict(prepared.fixed)
         for path, expression in self.specification.derive.items():
             value = derived.compute(expression, known)
             known[path] = value
