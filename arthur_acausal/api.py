@@ -248,7 +248,8 @@ def translate(
     Parameters
     ----------
     check_units : whether the homogeneity of every equation is checked.
-    compile : "auto" (by the system's C compiler where that pays), "always", "never".
+    compile : "auto" (by the system's C compiler where that pays), "often" (for what will run many times), "always",
+        "never".
 
     Raises
     ------

@@ -38,7 +38,7 @@ def generate(
 ) -> CompiledDAE:
     """Return the compiled system.
 
-    ``compile``: "auto" (by the system's C compiler where that pays), "always" or "never". ``continuation``: it
+    ``compile``: "auto" (by the system's C compiler where that pays), "often", "always" or "never". ``continuation``: it
     continues the run of another set of states: the states at the start are given, and nothing else holds there.
     ``starting``: the system that holds at the start only, with ``initial()`` true and homotopy as an argument.
     """

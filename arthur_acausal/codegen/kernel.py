@@ -133,15 +133,15 @@ def load_library(name: str, library: Path) -> ca.Function:
 def compile_functions(
     functions: Sequence[ca.Function],
     *,
-    mode: Literal["auto", "always", "never"] | str = "auto",
+    mode: Literal["auto", "often", "always", "never"] | str = "auto",
     cache: Cache | None = None,
 ) -> list[ca.Function]:
     """Return the functions as machine code, or as they are.
 
     Only functions of scalar expressions (SX) are compiled. ``mode`` "auto" does it if the machine has a C compiler and
     the instructions in all are between `LEAST` and `MOST`, and falls back to the virtual machine with a warning;
-    "always" raises instead; "never" does nothing. Libraries are kept in ``cache``, by default the user's.
-    The result of a compiled function is undefined where one of its arguments or results is absent.
+    "often" does it for few instructions, too; "always" raises instead; "never" does nothing. Libraries are kept in
+    ``cache``, by default the user's.
 
     Raises
     ------
@@ -152,7 +152,8 @@ def compile_functions(
     """
     plain = [f for f in functions if f.is_a("SXFunction") and f.n_instructions()]
     work = sum(f.n_instructions() for f in plain)
-    if mode == "never" or not plain or (mode == "auto" and not LEAST <= work <= MOST):
+    least = 0 if mode == "often" else LEAST
+    if mode == "never" or not plain or (mode != "always" and not least <= work <= MOST):
         return list(functions)
     command = compiler()
     if command is None:

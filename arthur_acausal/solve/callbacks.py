@@ -150,7 +150,7 @@ def jacobian_callback(
     """dF/dy + cj dF/dy' as IDA wants it; dense: an (n, n) array, sparse: the pattern's values."""
     write, ev_cj, kernel = _writer(evaluator, inputs), evaluator.cj, evaluator.jacobian
     isfinite = math.isfinite
-    place = _dense_places(dae)
+    place = dense_places(dae)
 
     def jacobian(
         t: float, y: FloatArray, yp: FloatArray, res: FloatArray, cj: float, out: FloatArray
@@ -196,7 +196,7 @@ def _writer(evaluator: Evaluator, inputs: Inputs) -> Callable[[float, FloatArray
     return write
 
 
-def _dense_places(dae: DAE) -> Index:
+def dense_places(dae: DAE) -> Index:
     """Where the pattern's values stand in an (n, n) array, by rows."""
     columns = np.repeat(np.arange(dae.n), np.diff(dae.sparsity.colind))
     return np.asarray(dae.sparsity.row, dtype=np.intp) * dae.n + columns
@@ -224,7 +224,7 @@ class Roots:
 
     def restart(self, window_end: float) -> None:
         """Take the modes as they are now and trust them up to `window_end`."""
-        self.modes = self._evaluator.m[self.index] > 0.5
+        self.modes[:] = self._evaluator.m[self.index] > 0.5
         self.disagreement = None
         self._window_end = window_end
         self._expected = self.modes.tobytes()
@@ -243,7 +243,7 @@ class Roots:
                     g = kernel()
                     np.add(g if everything else g[index], zero, out)
                     if (out > 0.0).tobytes() != self._expected:
-                        self._differs(t, out)
+                        self.differs(t, out)
                     return
             except KeyboardInterrupt:
                 monitor.halted = "interrupted"
@@ -251,7 +251,7 @@ class Roots:
 
         return roots
 
-    def _differs(self, t: float, out: FloatArray) -> None:
+    def differs(self, t: float, out: FloatArray) -> None:
         """Correct a value in the window; keep the first difference after it, which must lead to an event."""
         differs = (out > 0.0) != self.modes
         if t <= self._window_end:

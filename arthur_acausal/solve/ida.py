@@ -12,6 +12,7 @@ import os
 import sys
 import warnings
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -20,6 +21,7 @@ import numpy as np
 from arthur_acausal.solve.callbacks import Monitor, Roots, jacobian_callback, residual_callback
 from arthur_acausal.solve.capture import captured, text_of
 from arthur_acausal.solve.inputs import Inputs
+from arthur_acausal.solve.native import Native
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray
 
@@ -72,8 +74,15 @@ class Ida:
         self.linear_solver = _linear_solver(dae.n, options)
         self._n = dae.n
         self._roots, self._monitor = roots, monitor
-        self._eventsfn: Any = roots.callback() if roots.index.size else None
-        self._residual = residual_callback(evaluator, inputs, monitor)
+        dense = self.linear_solver == "dense"
+        self._native = Native.of(dae, evaluator, roots, monitor, inputs.varying, dense)
+        if self._native is not None:
+            self._residual, jacobian = self._native.residual, self._native.jacobian
+            self._eventsfn: Any = self._native.roots
+        else:
+            self._residual = residual_callback(evaluator, inputs, monitor)
+            jacobian = jacobian_callback(dae, evaluator, inputs, monitor, dense)
+            self._eventsfn = roots.callback() if roots.index.size else None
         self._settings: dict[str, Any] = {
             "rtol": options.rtol,
             "atol": atol if dae.n else 1.0,
@@ -82,7 +91,7 @@ class Ida:
             "max_order": options.max_order,
             "max_num_steps": options.max_steps,
             "max_step": max_step,
-            "jacfn": jacobian_callback(dae, evaluator, inputs, monitor, self.linear_solver == "dense"),
+            "jacfn": jacobian,
         }
         if self.linear_solver == "sparse":
             self._settings |= {"sparsity": _pattern(dae), "nthreads": 1}
@@ -112,7 +121,7 @@ class Ida:
             times = times[[0, -1]]
         if not self._n:
             y = yp = np.zeros(1)
-        with captured() as printed, np.errstate(over="ignore", invalid="ignore"):
+        with self._integrating() as printed:
             result = engine.solve(times, y, yp)
         first = 2 if inserted and len(result.t) > 2 else 1
         if len(result.t) > first and result.t[-1] <= start:  # failed in the first step
@@ -136,7 +145,7 @@ class Ida:
             self._stepping = self._engine(first_step)
             zero = np.zeros(1)
             self._stepping.init_step(times[0], y if self._n else zero, yp if self._n else zero)
-        with captured() as printed, np.errstate(over="ignore", invalid="ignore"):
+        with self._integrating() as printed:
             results = list(self._steps(times, onestep))
         self._reached = self._monitor.t
         if results[-1].status < 0:
@@ -156,6 +165,18 @@ class Ida:
             yield result
             if result.status < 0 or result.status == ROOT_RETURN or result.t >= stop:
                 return
+
+    @contextmanager
+    def _integrating(self) -> Iterator[Any]:
+        """While IDA is at work: what it prints is caught, and functions in C count for the monitor."""
+        with captured() as printed, np.errstate(over="ignore", invalid="ignore"):
+            if self._native is not None:
+                self._native.begin()
+            try:
+                yield printed
+            finally:
+                if self._native is not None:
+                    self._native.end()
 
     def forget(self) -> None:
         """The next `step_through` is to start anew."""

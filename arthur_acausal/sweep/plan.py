@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from arthur_acausal.api import Translation
 
 FINER = 10  # instants that reductions look at, for each one whose trajectory is kept
+WORTH_COMPILING = 20  # runs
 MOST_OUTPUTS = 24  # variables that are kept of a model that names none
 _PACKAGE = "arthur_acausal"
 
@@ -187,7 +188,7 @@ def _prepare(plan: Plan, model: str, structural: Mapping[str, str]) -> _Prepared
     kind, specification = plan.find(model), plan.specification
     settings = read_settings(kind, [f"{path}={text}" for path, text in structural.items()])
     built = kind(**settings.structural)
-    translation = translate(built, name=model if ":" not in model else "")
+    translation = translate(built, name=model if ":" not in model else "", compile=_mode(plan))
     found = _Found()
     for section in (specification.set, specification.inputs, specification.start):
         for path, value in section.items():
@@ -195,6 +196,13 @@ def _prepare(plan: Plan, model: str, structural: Mapping[str, str]) -> _Prepared
                 _place(translation, path, _number(value), found, plan.folder)
     numbers = {p: v for p, v in found.columns.items() if isinstance(v, float)}
     return _Prepared(translation, _job(plan, translation, built, found), structural, numbers)
+
+
+def _mode(plan: Plan) -> str:
+    """Compile also what is too small for it to pay in a single run."""
+    from arthur_acausal.codegen.kernel import compiler
+
+    return "often" if len(plan.runs) >= WORTH_COMPILING and compiler() is not None else "auto"
 
 
 def _job(plan: Plan, translation: Translation, model: Any, found: _Found) -> Job:

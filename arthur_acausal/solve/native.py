@@ -1,0 +1,182 @@
+"""The callbacks of `callbacks` in C, where the model's functions are machine code: a tenth of the cost of a call.
+
+A small extension module (native.c) is built once by the system's C compiler and kept in the cache. Where there is no
+compiler, or no header of Python, the functions of `callbacks` serve, with the same results to the last bit.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.machinery
+import importlib.util
+import logging
+import subprocess
+import sys
+import sysconfig
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from time import monotonic, perf_counter
+from typing import Any
+
+import numpy as np
+
+from arthur_acausal.codegen.cache import default_cache, make_key
+from arthur_acausal.codegen.kernel import Kernel, compiler
+from arthur_acausal.solve.callbacks import Monitor, Roots, dense_places
+from arthur_acausal.solve.protocol import DAE, Evaluator
+
+LOGGER = logging.getLogger("arthur_acausal")
+FIELDS = (
+    "t",
+    "h",
+    "steps",
+    "rejected",
+    "residuals",
+    "jacobians",
+    "roots",
+)  # of a Monitor, in the order of Counts
+HALTED = ("", "max_steps", "stalled", "interrupted")
+RESIDUAL, JACOBIAN, ROOTS = range(3)
+
+
+@cache
+def extension() -> Any:
+    """Return the extension module, None where it cannot be built or loaded."""
+    command = compiler()
+    include = sysconfig.get_paths()["include"]
+    if command is None or sys.platform == "win32" or not Path(include, "Python.h").exists():
+        return None
+    source = Path(__file__).with_name("native.c")
+
+    def build(path: Path) -> None:
+        flags = ["-O2", "-fPIC", "-shared", "-ffp-contract=off", f"-I{include}"]
+        words = [*command, *flags, str(source), "-o", str(path), "-lm"]
+        subprocess.run(words, check=True, capture_output=True, stdin=subprocess.DEVNULL, timeout=60.0)
+
+    try:
+        key = make_key("native", sys.version, " ".join(command), source.read_bytes())
+        library = default_cache().path_of_library(key, build)
+        loader = importlib.machinery.ExtensionFileLoader("arthur_native", str(library))
+        spec = importlib.util.spec_from_file_location("arthur_native", library, loader=loader)
+        assert spec is not None  # a loader was given
+        module = importlib.util.module_from_spec(spec)
+        loader.exec_module(module)
+    except (OSError, ImportError, subprocess.SubprocessError) as error:
+        LOGGER.info("callbacks stay in Python, for the extension in C cannot be built: %s", error)
+        return None
+    return module
+
+
+class Native:
+    """The callbacks of one run.
+
+    Attributes
+    ----------
+    residual, jacobian : as `residual_callback` and `jacobian_callback` give them.
+    roots : as `Roots.callback` gives it; None where no relation is watched.
+    """
+
+    def __init__(
+        self, module: Any, dae: DAE, evaluator: Evaluator, roots: Roots, monitor: Monitor, dense: bool
+    ) -> None:
+        self._module, self._dae, self._evaluator = module, dae, evaluator
+        self._roots, self._monitor = roots, monitor
+        self._counts = np.zeros(len(FIELDS) + 3)
+        place = dense_places(dae).astype(np.int64) if dense else None
+        # Functions of Python around them, since the binding asks for their signatures, which takes 0.3 ms for one of
+        # C, and keeps events as attributes.
+        residual = self._bind(RESIDUAL, evaluator.residual, self._refuse)
+        jacobian = self._bind(JACOBIAN, evaluator.jacobian, self._bad_jacobian, place)
+        self.residual = lambda t, y, yp, out: residual(t, y, yp, out)
+        self.jacobian = lambda t, y, yp, res, cj, out: jacobian(t, y, yp, res, cj, out)
+        self.roots: Callable[..., None] | None = None
+        if roots.index.size:
+            watched = self._bind(ROOTS, evaluator.roots, roots.differs, roots.index.astype(np.int64))
+            self.roots = lambda t, y, yp, out: watched(t, y, yp, out)
+
+    @classmethod
+    def of(
+        cls, dae: DAE, evaluator: Evaluator, roots: Roots, monitor: Monitor, varying: bool, dense: bool
+    ) -> Native | None:
+        """Return the callbacks in C, None where they cannot serve: functions that are not machine code, inputs
+        that vary, external functions."""
+        kernels = [evaluator.residual, evaluator.jacobian, *([evaluator.roots] if roots.index.size else [])]
+        able = dae.n and not varying and all(_is_compiled(kernel) for kernel in kernels)
+        module = extension() if able else None
+        return None if module is None else cls(module, dae, evaluator, roots, monitor, dense)
+
+    def begin(self) -> None:
+        """Take over what the monitor has counted."""
+        monitor, counts = self._monitor, self._counts
+        counts[: len(FIELDS)] = [getattr(monitor, name) for name in FIELDS]
+        # the clocks of C and of Python may have other origins
+        due = max(monitor.next_report - perf_counter(), 0.0)
+        counts[len(FIELDS) :] = HALTED.index(monitor.halted), monitor.max_steps, monotonic() + due
+
+    def end(self) -> None:
+        """Give back what was counted."""
+        monitor, counts = self._monitor, self._counts.tolist()
+        monitor.t, monitor.h = counts[0], counts[1]
+        for name, value in zip(FIELDS[2:], counts[2:], strict=False):
+            setattr(monitor, name, int(value))
+        monitor.halted = HALTED[int(counts[len(FIELDS)])]
+        monitor.next_report = perf_counter() + max(counts[-1] - monotonic(), 0.0)
+
+    def _refuse(self) -> bool:
+        """Whether the residual is refused; see `Monitor.refuse`."""
+        self._monitor.residuals = int(self._counts[FIELDS.index("residuals")])
+        return self._monitor.refuse(self._evaluator, self._evaluator.residual())
+
+    def _bad_jacobian(self) -> None:
+        bad = np.flatnonzero(~np.isfinite(self._evaluator.jacobian()))
+        if bad.size:
+            self._monitor.jacobian_offence = (float(self._evaluator.t[0]), int(bad[0]))
+
+    def _bind(self, kind: int, kernel: Any, slow: Callable[..., object], place: Any = None) -> Any:
+        function, evaluator, roots = kernel.function, self._evaluator, self._roots
+        library = ctypes.CDLL(str(function.library))
+        sizes = (ctypes.c_longlong * 4)()
+        work = getattr(library, f"{function.name()}_work")
+        work(*(ctypes.byref(sizes, 8 * k) for k in range(4)))
+        arg = np.zeros(sizes[0] + 1, dtype=np.uint64)
+        res = np.zeros(sizes[1] + 1, dtype=np.uint64)
+        iw, w = np.zeros(sizes[2] + 1, dtype=np.int64), np.zeros(sizes[3] + 1)
+        arg[: len(kernel.inputs)] = [array.ctypes.data for array in kernel.inputs]
+        res[: len(kernel.outputs)] = [array.ctypes.data for array in kernel.outputs]
+        address = ctypes.cast(getattr(library, function.name()), ctypes.c_void_p).value
+        keep = (
+            kernel,
+            library,
+            arg,
+            res,
+            iw,
+            w,
+            self._counts,
+            place,
+            roots.sign_of_zero,
+            roots.modes,
+            evaluator,
+        )
+        progress = self._monitor.progress
+        return self._module.bind(
+            kind,
+            address,
+            *(array.ctypes.data for array in (arg, res, iw, w)),
+            self._dae.n,
+            kernel.result.size,
+            *(array.ctypes.data for array in (evaluator.t, evaluator.y, evaluator.yp, evaluator.cj)),
+            kernel.result.ctypes.data,
+            self._counts.ctypes.data,
+            0 if place is None else place.ctypes.data,
+            0 if place is None else place.size,
+            roots.sign_of_zero.ctypes.data,
+            roots.modes.ctypes.data,
+            slow,
+            progress,
+            keep,
+        )
+
+
+def _is_compiled(kernel: object) -> bool:
+    return isinstance(kernel, Kernel) and hasattr(kernel.function, "library")
