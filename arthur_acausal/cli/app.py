@@ -94,15 +94,15 @@ def info(
 @reported
 def check(model: Model, settings: Set = None, as_json: Json = False, debug: Debug = False) -> None:
     """Check a model's structure and say how its equations are solved."""
+    from arthur_acausal.api import translate
     from arthur_acausal.cli.structure import as_object, as_text, only_structural
-    from arthur_acausal.flatten.flatten import flatten
     from arthur_acausal.request.locate import build_model
-    from arthur_acausal.transform.structured import report, transform
 
     with quiet(as_json):
         built = build_model(model, settings or [])
         only_structural(built)
-        found = report(transform(flatten(built.model, name=built.name)))
+        # All of the translation, so that whatever it refuses is told here, too.
+        found = translate(built.model, name=built.name, compile="never").report
     typer.echo(json.dumps(as_object(found), ensure_ascii=False) if as_json else as_text(found))
 
 

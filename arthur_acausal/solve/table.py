@@ -214,7 +214,8 @@ def _read_csv(path: Path, time: str, column: str | None) -> tuple[list[float], l
             place = (header.index(time), header.index(name))
             rows = [_numbers(path, lines.line_num, row, header, place) for row in lines if any(row)]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise UsageError(f"{path} cannot be read as a CSV file", cause=str(error)) from None
+        cause = error.strerror if isinstance(error, OSError) else str(error)
+        raise UsageError(f"{path} cannot be read as a CSV file", cause=(cause or "").lower()) from None
     if not rows:
         raise UsageError(f"{path} holds no rows below its header")
     return [row[0] for row in rows], [row[1] for row in rows], name

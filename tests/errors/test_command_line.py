@@ -83,7 +83,11 @@ FAULTS: Mapping[str, tuple[str, int, list[str]]] = {
         [r"order\.csv", r"0 s comes after 1 s"],
     ),
     "table without rows": ("simulate decay.py --input u=header.csv", 1, [r"header\.csv", r"no rows"]),
-    "no such table": ("simulate decay.py --input u=nowhere.csv", 1, [r"nowhere\.csv"]),
+    "no such table": (
+        "simulate decay.py --input u=nowhere.csv",
+        1,
+        [r"nowhere\.csv", r"cause: no such file"],
+    ),
     "result into a full disk": ("simulate decay.py -o /dev/full", 1, [r"/dev/full"]),
     "result into no folder": ("simulate decay.py -o nowhere/x.nc", 1, [r"nowhere"]),
     "variable that is not in the result": ("plot decay.nc speed", 1, [r"'speed'"]),

@@ -14,9 +14,11 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from typer.testing import CliRunner
 
 import arthur_acausal
 from arthur_acausal import ArthurError
+from arthur_acausal.cli.app import app
 
 FOLDER = Path(__file__).parent
 FAULTS = sorted(set(FOLDER.glob("*.py")) - {FOLDER / "__init__.py", Path(__file__)})
@@ -58,9 +60,27 @@ def test_one_clear_message(file: Path, tmp_path: Path, monkeypatch: pytest.Monke
     assert "0x" not in text and "<bound" not in text, "no addresses of objects"
 
 
+AT_TRANSLATION = re.compile(r"^def run\(\) -> object:\n    return translate\((\w+)\(\)\)$", re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    ("file", "name"),
+    [
+        pytest.param(file, found[1], id=file.stem)
+        for file in FAULTS
+        if (found := AT_TRANSLATION.search(file.read_text(encoding="utf-8")))
+    ],
+)
+def test_check_prints_the_same_message(file: Path, name: str) -> None:
+    error = fail(load(file))
+    result = CliRunner().invoke(app, ["check", f"{file}:{name}"], prog_name="arthur")
+    assert (result.exit_code, result.stdout) == (1, "")
+    assert result.stderr.strip() == f"error: {error}"
+
+
 def test_the_corpus_is_large_and_of_every_kind() -> None:
     modules = [load(file) for file in FAULTS]
-    assert len(modules) >= 25
+    assert len(modules) >= 100
     kinds = {module.ERROR for module in modules}
     assert kinds == {
         getattr(arthur_acausal, name)
