@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from arthur_acausal.declare.quantity import real_output as real_output
     from arthur_acausal.declare.quantity import start as start
     from arthur_acausal.declare.quantity import variable as variable
+    from arthur_acausal.declare.sampled import sampled as sampled
     from arthur_acausal.declare.statement import connect as connect
     from arthur_acausal.declare.statement import der as der
     from arthur_acausal.declare.statement import edge as edge
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from arthur_acausal.declare.statement import initial as initial
     from arthur_acausal.declare.statement import pre as pre
     from arthur_acausal.declare.statement import reinit as reinit
-    from arthur_acausal.declare.statement import sampled as sampled
     from arthur_acausal.declare.statement import smooth_if_else as smooth_if_else
     from arthur_acausal.declare.statement import terminate as terminate
     from arthur_acausal.declare.statement import time as time
@@ -69,6 +69,7 @@ _HOME = {
         "start",
         "variable",
     ),
+    "declare.sampled": ("sampled",),
     "declare.statement": (
         "connect",
         "der",
@@ -78,7 +79,6 @@ _HOME = {
         "pre",
         "reinit",
         "edge",
-        "sampled",
         "smooth_if_else",
         "terminate",
         "time",

@@ -83,11 +83,11 @@ class Jump:
         changed = np.flatnonzero(before.m != self.m)
         if not changed.size:
             return np.zeros(dp.shape[1])
-        f, point = self.dae.functions["roots"], before.arguments()
+        f, point = self.dae.functions["roots"], [*before.arguments(), before.z]
         by = [b[changed] for b in _slopes(f, point)]
         value = np.array(f(*point), dtype=float).reshape(-1)[changed]
         along = by[0][:, 0] + by[1] @ rate + by[4] @ self.du
-        slope = by[1] @ s + by[3][:, :n_p] @ dp + by[5] @ dz
+        slope = by[1] @ s + by[3][:, :n_p] @ dp + (by[5] + by[7]) @ dz
         with np.errstate(divide="ignore", invalid="ignore"):
             away = np.abs(value / along)
         first = int(np.argmin(np.where(np.isfinite(away), away, np.inf)))

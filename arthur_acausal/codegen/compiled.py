@@ -176,7 +176,7 @@ class Evaluator:
             self.external = Calls(dae.calls, dae.functions, self._continuous, *self._continuous[-2:])
         self.residual = self._kernel("residual")
         self.jacobian = self._kernel("jacobian", self.cj)
-        self.roots = self._kernel("roots")
+        self.roots = self._kernel("roots", self.zp)
         if dae.relations_of_rates:
             self.roots = RootsWithRates(dae, self, self.roots)
         if dae.sets is not None:

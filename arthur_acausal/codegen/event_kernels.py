@@ -64,10 +64,18 @@ def samples_of(dae: StructuredDAE, look: Any) -> tuple[list[SampledBlock], list[
     inputs: list[SX] = []
     for item in dae.flat.samplings:
         s = item.sampling
-        outputs = tuple(atom.number + item.shift.discrete for atom in s.outputs)
+        outputs, begins = (
+            tuple(atom.number + item.shift.discrete for atom in atoms) for atoms in (s.outputs, s.begins)
+        )
+        since = -1 if s.since is None else s.since.number + item.shift.discrete
+        first = len(inputs)
+        taken = [*s.inputs, *([] if s.trigger is None else [s.trigger])]
+        inputs += [dae.evaluator(placed_row(dae, x, item), look) for x in taken]
+        trigger = -1 if s.trigger is None else len(inputs) - 1
         label = f"{item.path} {s.label}".strip() or "sampled()"
-        blocks.append(SampledBlock(label, s.where, s.function, len(inputs), len(s.inputs), outputs))
-        inputs += [dae.evaluator(placed_row(dae, x, item), look) for x in s.inputs]
+        blocks.append(
+            SampledBlock(label, s.where, s.function, first, len(s.inputs), outputs, begins, since, trigger)
+        )
     times = [
         dae.evaluator(placed_row(dae, x, item), look)
         for which in ("period", "offset")

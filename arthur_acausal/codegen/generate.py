@@ -113,7 +113,7 @@ def _functions(
     dy, dyp = rule(residual, a.y), rule(residual, a.yp)
     both = _shared(rule(residual, a.y, a.yp, cj) if dae.flat.calls else dy + cj * dyp)
     pattern = both.sparsity()
-    roots = [dae.evaluator(placed_row(dae, r.relation.g, r), look) for r in dae.flat.relations]
+    roots = [dae.evaluator(placed_row(dae, r.relation.g, r), before) for r in dae.flat.relations]
     conditions, values, whens, assignments = events = whens_of(dae, before, y_place, starting=a.starting)
     entries = add_switching(dae, assembly, look, events)
     initial, labels = _initial(dae, assembly, slots, [] if continuation else dae.flat.initial)
@@ -126,7 +126,7 @@ def _functions(
     kernels: dict[str, tuple[list[SX], SX]] = {
         "residual": (arguments, residual),
         "jacobian": ([*arguments, cj], both),
-        "roots": (arguments, _column(roots)),
+        "roots": (a.event(), _column(roots)),
         "jacobian_y": (arguments, ca.project(dy, pattern)),
         "jacobian_yp": (arguments, ca.project(dyp, pattern)),
         "jacobian_u": (arguments, rule(residual, a.u)),

@@ -41,7 +41,11 @@ class WhenClause:
 
 @dataclass(frozen=True, slots=True)
 class SampledBlock:
-    """A function that is called periodically: with ``count`` sample inputs from ``first`` on; it sets z[outputs]."""
+    """A function that is called periodically: with ``count`` sample inputs from ``first`` on; it sets z[outputs].
+
+    ``begins``: with a first-order hold, where z holds the beginnings of the ramps, of which z[outputs] are the slopes;
+    z[since] is when they began. ``trigger``: the sample input that calls it when it changes; -1: none.
+    """
 
     label: str
     where: str
@@ -49,6 +53,9 @@ class SampledBlock:
     first: int
     count: int
     outputs: tuple[int, ...]
+    begins: tuple[int, ...] = ()
+    since: int = -1
+    trigger: int = -1
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,17 @@ from arthur_acausal.declare.quantity import Quantity, Start
 from arthur_acausal.errors import DeclarationError
 
 AtomKind: TypeAlias = Literal[
-    "variable", "der", "parameter", "discrete", "pre", "mode", "time", "initial", "homotopy", "external"
+    "variable",
+    "left",
+    "der",
+    "parameter",
+    "discrete",
+    "pre",
+    "mode",
+    "time",
+    "initial",
+    "homotopy",
+    "external",
 ]
 
 
@@ -100,6 +110,8 @@ class Scope:
         match atom.kind:
             case "der":
                 return f"der({self.short(self.variable[atom.number].path)})"
+            case "left":
+                return f"pre({self.short(self.variable[atom.number].path)})"
             case "pre":
                 return f"pre({self.short(self.discrete[atom.number].path)})"
             case "mode":
@@ -125,7 +137,7 @@ class Scope:
 
     def quantity(self, atom: Atom) -> Quantity | None:
         """Return the declaration behind an atom; None for time, relations and the like."""
-        space = {"der": "variable", "pre": "discrete"}.get(atom.kind, atom.kind)
+        space = {"der": "variable", "left": "variable", "pre": "discrete"}.get(atom.kind, atom.kind)
         if space in ("time", "mode", "initial", "homotopy", "external"):
             return None
         declared: Declared = getattr(self, space)[atom.number]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -52,17 +51,6 @@ class When:
     def elsewhen(self, condition: SX, *statements: Any) -> When:
         """Add statements for ``condition``, unless one of the branches before becomes true at the same moment."""
         return When((*self.branches, *when(condition, *statements).branches))
-
-
-@dataclass(frozen=True, slots=True)
-class Sampled:
-    """A function that is called at a fixed period; its results are discrete variables, held in between."""
-
-    function: Callable[..., Any]
-    period: SX
-    offset: SX
-    inputs: tuple[SX, ...]
-    outputs: tuple[SX, ...]
 
 
 def time() -> SX:
@@ -122,7 +110,7 @@ def pre(x: SX) -> SX:
     atom = scope.atom(x)
     if atom is None or atom.kind not in ("discrete", "variable"):
         raise DeclarationError("pre() takes a variable", remedy="apply it to each variable of the expression")
-    return scope.symbol("pre", atom.number) if atom.kind == "discrete" else x
+    return scope.symbol("pre" if atom.kind == "discrete" else "left", atom.number)
 
 
 def if_else(condition: Expression | bool, then: Expression, otherwise: Expression) -> SX:
@@ -199,38 +187,6 @@ def when(condition: SX, *statements: Any) -> When:
 def edge(x: SX) -> SX:
     """Return whether a discrete (0 or 1) variable has just become true; for conditions of ``when``."""
     return ca.logic_and(x, ca.logic_not(pre(x)))
-
-
-def sampled(
-    function: Callable[..., Any],
-    *,
-    period: Expression,
-    offset: Expression = 0.0,
-    inputs: Sequence[Expression] = (),
-    outputs: Sequence[SX] = (),
-) -> Sampled:
-    """Call ``function(t, inputs)`` at t = offset, offset + period, ... and hold its results in ``outputs``.
-
-    Parameters
-    ----------
-    function : takes the time [s] and an array of the inputs just before it, in SI; returns one number an output.
-        A CasADi function of (t, inputs) will do. A class with a state of its own gives ``fresh()``, which returns
-        a new one for each run.
-    period, offset : of parameters [s]; the period is positive.
-    outputs : discrete variables, which nothing else changes.
-
-    Functions that are due at the same moment are called in the order of declaration, each with what the earlier
-    ones have set.
-    """
-    scope = current_scope("sampled()")
-    for output in outputs:
-        atom = scope.atom(output)
-        if atom is None or atom.kind != "discrete":
-            raise DeclarationError(
-                f"an output of sampled() is a discrete variable, not {output}",
-                remedy="declare it with discrete(...)",
-            )
-    return Sampled(function, SX(period), SX(offset), tuple(SX(x) for x in inputs), tuple(outputs))
 
 
 def reinit(target: SX, value: Expression) -> Reinit:

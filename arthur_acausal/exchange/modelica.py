@@ -191,7 +191,7 @@ class _Writer:
         """Return the text of an atom; ``before``: variables of which the value before the event is meant."""
         scope = self.flat.scope
         match atom.kind:
-            case "variable":
+            case "variable" | "left":
                 name = self._variable(atom.number)
                 return f"pre({name})" if atom.number in before else name
             case "der":

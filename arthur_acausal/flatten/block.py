@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from arthur_acausal.declare.authored import authored, defined_at, place
 from arthur_acausal.declare.external import External, ExternalFunction
 from arthur_acausal.declare.model import Component, title_of
+from arthur_acausal.declare.sampled import Sampled
 from arthur_acausal.declare.scope import Atom, Scope, using
-from arthur_acausal.declare.statement import Connection, Reinit, Sampled, Terminate, When
+from arthur_acausal.declare.statement import Connection, Reinit, Terminate, When
 from arthur_acausal.errors import DeclarationError
 
 BoolArray = NDArray[np.bool_]
@@ -83,13 +84,19 @@ class Clause:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sampling:
-    """A function that is called periodically; ``outputs`` are discrete variables."""
+    """A function that is called periodically; ``outputs`` are discrete variables.
+
+    Where these are the slopes of ramps: the beginnings, and the one that holds the time when they began, follow.
+    """
 
     function: Callable[..., Any]
     period: Expression
     offset: Expression
     inputs: tuple[Expression, ...]
     outputs: tuple[Atom, ...]
+    begins: tuple[Atom, ...]
+    since: Atom | None
+    trigger: Expression | None
     label: str
     where: str
 
@@ -142,7 +149,9 @@ def run_block(component: Component, scope: Scope) -> Block:
                 raise _bad(component, where, f"initial_equations() yields equations only, not {statement!r}")
             block.initial.append(make_equation(statement, label, where, scope))
     block.relations = [
-        Comparison(make_expression(r.g, r.where, scope), r.inclusive, r.where, r.text)
+        Comparison(
+            _of_now(make_expression(r.g, r.where, scope), r.where, scope), r.inclusive, r.where, r.text
+        )
         for r in scope.relations[first:]
     ]
     return block
@@ -203,6 +212,7 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
             block.clauses.append(Clause(tested, assignments, label, where, earlier))
     elif isinstance(statement, Sampled):
         block.samplings.append(_sampling(statement, label, where, scope))
+        block.equations.extend(make_equation(e, label, where, scope) for e in statement.equations)
     elif isinstance(statement, External):
         _add_call(statement, label, where, scope, block)
     elif _is_equation(statement):
@@ -234,8 +244,22 @@ def _sampling(statement: Sampled, label: str, where: str, scope: Scope) -> Sampl
     period, offset, *inputs = (
         make_expression(x, where, scope) for x in (statement.period, statement.offset, *statement.inputs)
     )
-    outputs = tuple(atom for x in statement.outputs if (atom := scope.atom(x)) is not None)
-    return Sampling(statement.function, period, offset, tuple(inputs), outputs, label, where)
+    outputs, begins = (
+        tuple(atom for x in symbols if (atom := scope.atom(x)) is not None)
+        for symbols in (statement.outputs, statement.begins)
+    )
+    since = scope.atom(statement.since) if statement.since is not None else None
+    trigger = make_expression(statement.trigger, where, scope) if statement.trigger is not None else None
+    if trigger is not None and any(a.kind not in ("discrete", "parameter") for a in trigger.atoms):
+        raise DeclarationError(
+            f"the trigger {trigger.value} is not of discrete variables alone",
+            path=scope.prefix.rstrip("."),
+            where=where,
+            remedy="let a discrete variable change where the function is to be called",
+        )
+    return Sampling(
+        statement.function, period, offset, tuple(inputs), outputs, begins, since, trigger, label, where
+    )
 
 
 def _add_call(statement: External, label: str, where: str, scope: Scope, block: Block) -> None:
@@ -291,7 +315,22 @@ def make_equation(statement: SX, label: str, where: str, scope: Scope) -> Equati
     """Return the equation behind a ``lhs == rhs``, its symbols looked up in ``scope``."""
     lhs, rhs = statement.dep(0), statement.dep(1)
     name = f'"{label}"' if label else shortened(f"{lhs} == {rhs}")
-    return Equation(lhs, rhs, make_expression(lhs - rhs, where, scope), label, where, name)
+    residual = _of_now(make_expression(lhs - rhs, where, scope), where, scope)
+    return Equation(lhs, rhs, residual, label, where, name)
+
+
+def _of_now(expression: Expression, where: str, scope: Scope) -> Expression:
+    """Return the expression. Raises DeclarationError where it has a continuous variable's value before an event."""
+    for atom in expression.atoms:
+        if atom.kind == "left":
+            raise DeclarationError(
+                f"{scope.name(atom)} of a continuous variable in an equation or a relation",
+                path=scope.prefix.rstrip("."),
+                where=where,
+                cause="it is known at events only: it stands for the value just before",
+                remedy="use the variable itself, or keep its value in a discrete one, set by when",
+            )
+    return expression
 
 
 def shortened(text: str) -> str:

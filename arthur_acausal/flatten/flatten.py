@@ -181,6 +181,12 @@ def _place(component: Component, block: Block, shift: Shift, work: _Work) -> Non
     work.calls.extend(FlatCall(c, path) for c in block.calls)
 
 
+def _in_order(samplings: list[FlatSampling], components: list[Component]) -> list[FlatSampling]:
+    """Return the samplings in the order of their components: owners before their parts, as declared."""
+    number = {path_of(component): k for k, component in enumerate(components)}
+    return sorted(samplings, key=lambda s: number[s.path])
+
+
 def _finish(
     root: Component, components: list[Component], name: str, same: dict[int, int], work: _Work
 ) -> FlatSystem:
@@ -210,7 +216,7 @@ def _finish(
         work.found.aliases,
         work.relations,
         work.clauses,
-        work.samplings,
+        _in_order(work.samplings, components),
         work.calls,
         inputs,
         same,

@@ -49,7 +49,7 @@ class FlatEquation:
 def shifted(atom: Atom, shift: Shift) -> Atom:
     """Return the model's atom behind a component class's own."""
     match atom.kind:
-        case "variable" | "der":
+        case "variable" | "left" | "der":
             return Atom(atom.kind, atom.number + shift.variable)
         case "parameter":
             return Atom(atom.kind, atom.number + shift.parameter)

@@ -92,10 +92,11 @@ class EventIteration:
             sample()
         pending, reset = inputs_jump or not np.array_equal(evaluator.z, evaluator.zp), False
         moving: Index = np.zeros(0, dtype=np.intp)
+        trusted = dict(flagged)
         for number in range(self._options.max_event_iterations):
             doubtful = reset or number > TRUSTED_PASSES
             modes = self._right_limit(
-                flagged, resolution, np.inf if number == 0 else 0.0 if doubtful else TRUST
+                trusted, resolution, np.inf if number == 0 else 0.0 if doubtful else TRUST
             )
             moving = np.flatnonzero(modes != (evaluator.m > 0.5))
             evaluator.m[:] = modes
@@ -105,7 +106,11 @@ class EventIteration:
                 break
             if pending and self._has_algebraic and rising.any():
                 self._follow(outcome, inputs_jump)  # what the `when` clauses read must hold in the new modes
+            g = evaluator.roots().copy() if trusted and rising.any() else None
             acted, was_reset = self._act(rising, outcome)
+            if acted and g is not None:  # a threshold that was moved says what holds, however near it is
+                now = evaluator.roots()
+                trusted = {k: value for k, value in trusted.items() if now[k] == g[k]}
             reset |= was_reset
             if acted or pending:
                 self._follow(outcome, was_reset or inputs_jump)

@@ -67,7 +67,7 @@ class HybridRun:
         self._statistics = Statistics(unknowns=dae.n, load_s=loaded)
         self._monitor = Monitor(options.max_steps, progress)
         self._modes = Modes(dae, evaluator)
-        evaluator.z[:] = self._attributes.z_start
+        evaluator.z[:] = evaluator.zp[:] = self._attributes.z_start
         scheduled = affine_relations(dae, evaluator, start_time, stop_time)
         self._schedule = Schedule(evaluator, np.flatnonzero(scheduled))
         self._roots = Roots(dae, evaluator, self._inputs, self._monitor, np.flatnonzero(~scheduled))

@@ -35,8 +35,9 @@ class SolverOptions:
     newton_tolerance : largest relative correction at which the initial and event equations count as solved.
     newton_iterations : most Newton iterations of an initialisation.
     max_event_iterations : most passes until the relations and discrete variables of one event must agree.
-    chattering_events, chattering_window : this many events within this part of the run's length are an error.
-    zeno_interval : state events that close up to below this part of the run's length are an error.
+    chattering_events, chattering_window : this many events within this part of the run's length are an error; a
+        window of 0 lets them be.
+    zeno_interval : state events that close up to below this part of the run's length are an error; 0 lets them be.
     """
 
     rtol: float = 1e-6
@@ -61,8 +62,9 @@ class SolverOptions:
         for name in ("output_interval", "first_step", "max_step"):
             if getattr(self, name) is not None:
                 _positive(name, getattr(self, name))
-        for name in ("newton_tolerance", "chattering_window", "zeno_interval"):
-            _positive(name, getattr(self, name))
+        _positive("newton_tolerance", self.newton_tolerance)
+        for name in ("chattering_window", "zeno_interval"):
+            _within(name, getattr(self, name), 0.0, 1.0)
         for name in (
             "intervals",
             "max_steps",

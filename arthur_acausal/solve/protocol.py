@@ -79,6 +79,21 @@ class SampledBlock(Protocol):
         """The discrete variables that it sets, as indices into z."""
         ...
 
+    @property
+    def begins(self) -> Sequence[int]:
+        """With a first-order hold: where z holds the beginnings of ramps, the outputs their slopes; else empty."""
+        ...
+
+    @property
+    def since(self) -> int:
+        """Where z holds the time when the ramps began, s."""
+        ...
+
+    @property
+    def trigger(self) -> int:
+        """Number of the sample input that calls it when it changes; -1: none."""
+        ...
+
 
 class Assignment(Protocol):
     """What a `when` does, or a discrete equation that is always active."""

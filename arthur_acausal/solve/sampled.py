@@ -26,6 +26,8 @@ class Samples:
                 )
         # a fresh function for each run, where it has a state of its own
         self._functions = [getattr(b.function, "fresh", lambda f=b.function: f)() for b in self._blocks]
+        self._triggers = [block.trigger for block in self._blocks]
+        self._seen: FloatArray | None = None  # values of the triggers when they were last asked for
         late = 1e-9 * self._period
         self._k = np.maximum(np.ceil((start_time - self._offset - late) / self._period), 0.0)
 
@@ -34,11 +36,22 @@ class Samples:
         return float(np.min(self._offset + self._k * self._period)) if len(self._blocks) else math.inf
 
     def act(self, now: float) -> None:
-        """Call what is due up to ``now`` [s], in order; the evaluator holds the values before it."""
-        due = np.flatnonzero(self._offset + self._k * self._period <= now).tolist()
-        for number in due:
-            self._call(number)
-            self._k[number] += 1.0
+        """Call what is due up to ``now`` [s] or triggered, in order; the evaluator holds the values before it."""
+        if self._seen is None:
+            self._seen = self._trigger_values()
+        due = self._offset + self._k * self._period <= now
+        for number, block in enumerate(self._blocks):
+            triggered = block.trigger >= 0 and self._trigger_values()[number] != self._seen[number]
+            if due[number] or triggered:
+                self._seen[number] = self._trigger_values()[number]
+                self._call(number)
+        self._k[due] += 1.0
+
+    def _trigger_values(self) -> FloatArray:
+        """Return the trigger of each block; anything for a block without one."""
+        if max(self._triggers, default=-1) < 0:
+            return np.zeros(len(self._triggers))
+        return self._evaluator.sample_inputs()[self._triggers]
 
     def _call(self, number: int) -> None:
         block, evaluator = self._blocks[number], self._evaluator
@@ -58,7 +71,13 @@ class Samples:
                 where=block.where,
                 cause=f"it must return {len(block.outputs)} finite numbers",
             )
-        evaluator.z[list(block.outputs)] = result
+        z, outputs = evaluator.z, list(block.outputs)
+        if block.begins:
+            begins = list(block.begins)
+            z[begins] += (t - z[block.since]) * z[outputs]
+            z[block.since] = t
+            result = (result - z[begins]) / self._period[number]
+        z[outputs] = result
 
 
 def _numbers(result: Any) -> FloatArray:

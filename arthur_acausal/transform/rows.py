@@ -102,7 +102,7 @@ class Nodes:
     def ref(self, atom: Atom, text: str) -> Ref:
         """Return what an atom of the flat system stands for."""
         match atom.kind:
-            case "variable":
+            case "variable" | "left":
                 return self.of_variable(atom.number)
             case "der":
                 return self.of_derivative(atom.number, text)
