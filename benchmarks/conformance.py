@@ -130,7 +130,7 @@ def hopsan(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
             own, t = np.insert(own, 0, before), np.insert(t, 0, t[0])
         shares[signal["name"]] = out_of_tube(times, values, t, own, tube_of(case))
     worst = max(shares, key=shares.__getitem__)
-    return shares[worst], f"worst: {worst}" if shares[worst] else ""
+    return shares[worst], f"worst: {worst}" if shares[worst] else reader.notes()
 
 
 def tube_of(case: Mapping[str, Any]) -> Tube:

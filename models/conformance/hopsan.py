@@ -13,7 +13,14 @@ from arthur_acausal import Component, Equations, UsageError, connect
 from arthur_acausal.components.blocks import Gain
 from arthur_acausal.components.hydraulic import FlowSensor
 from arthur_acausal.models.conformance.hopsan_given import Given, fluid, number
-from arthur_acausal.models.conformance.hopsan_table import FLOW_SENSOR, SCALES, SINKS, TABLE, Counterpart
+from arthur_acausal.models.conformance.hopsan_table import (
+    FLOW_SENSOR,
+    NOTES,
+    SCALES,
+    SINKS,
+    TABLE,
+    Counterpart,
+)
 
 QUANTITIES = {"Pressure": "p", "Flow": "q", "Position": "s", "Angle": "phi"}
 """Quantities of a node of Hopsan -> of our connectors."""
@@ -209,6 +216,10 @@ class Reader:
             raise UsageError(f"no variable is known for {signal}")
         sign = -1.0 if quantity == "Flow" and not part.stores else 1.0
         return f"{own_name(name)}.{part.ports[variable]}.{QUANTITIES[quantity]}", sign
+
+    def notes(self) -> str:
+        """Return what of Hopsan's discretisation the model follows."""
+        return "; ".join(note for kind, note in NOTES.items() if kind in self.types.values())
 
     def before(self, signal: str) -> float | None:
         """Return the start value that the case states for a sensor's node, which Hopsan logs before its first step."""

@@ -22,6 +22,7 @@ from arthur_acausal.components.hydraulic import (
 )
 from arthur_acausal.components.translational import LoadForce
 from arthur_acausal.models.conformance import hopsan_makers as make
+from arthur_acausal.models.conformance import hopsan_valves as valves
 from arthur_acausal.models.conformance.hopsan_given import Given
 from arthur_acausal.models.conformance.hopsan_parts import (
     LoadTorque,
@@ -41,7 +42,7 @@ class Counterpart:
     stores : whether it is of Hopsan's C type, which takes in what the node's flow says (Q types give it).
     """
 
-    make: make.Make
+    make: valves.Make
     ports: Mapping[str, str] = field(default_factory=dict)
     signals: Mapping[str, str] = field(default_factory=dict)
     stores: bool = False
@@ -97,10 +98,10 @@ _HYDRAULIC: dict[str, Counterpart] = {
         lambda g: LinearResistance(R=1 / g("Kc", 1e-11), fluid=g.fluid), TWO
     ),
     "HydraulicTurbulentOrifice": Counterpart(make.orifice, TWO, {"A": "opening"}),
-    "HydraulicCheckValve": Counterpart(make.check_valve, TWO),
-    "HydraulicCheckValvePreLoaded": Counterpart(make.check_valve, TWO),
-    "HydraulicPilotControlledCheckValve": Counterpart(make.pilot_check_valve, TWO | {"P_PILOT": "port_x"}),
-    "Hydraulic22DirectionalCheckValve": Counterpart(make.switched_check_valve, TWO, {"in": "hold"}),
+    "HydraulicCheckValve": Counterpart(valves.check_valve, TWO),
+    "HydraulicCheckValvePreLoaded": Counterpart(valves.check_valve, TWO),
+    "HydraulicPilotControlledCheckValve": Counterpart(valves.pilot_check_valve, TWO | {"P_PILOT": "port_x"}),
+    "Hydraulic22DirectionalCheckValve": Counterpart(valves.switched_check_valve, TWO, {"in": "hold"}),
     "HydraulicFixedDisplacementPump": Counterpart(
         make.pump("n_p", 250.0, "C_lp"), TWO, {"n_p": "w", "eps": "setting"}
     ),
@@ -123,18 +124,18 @@ _HYDRAULIC: dict[str, Counterpart] = {
     ),
     "HydraulicCylinderQ": Counterpart(make.loaded_piston, TWO | {"P3": "flange"}),
     "HydraulicPistonMload": Counterpart(make.loaded_piston, TWO | {"Pmp": "flange"}),
-    "Hydraulic22Valve": Counterpart(make.valve(Valve22, one_sided=True), P_A, SPOOL),
+    "Hydraulic22Valve": Counterpart(valves.valve(Valve22, one_sided=True), P_A, SPOOL),
     "Hydraulic22DirectionalValve": Counterpart(
-        make.valve(Valve22, switched=True), {"P1": "port_p", "P2": "port_a"}, SPOOL
+        valves.valve(Valve22, switched=True), {"P1": "port_p", "P2": "port_a"}, SPOOL
     ),
-    "Hydraulic32DirectionalValve": Counterpart(make.valve(Valve33, switched=True), P_A_T, SPOOL),
-    "Hydraulic33Valve": Counterpart(make.valve(Valve33), P_A_T, SPOOL),
-    "Hydraulic42DirectionalValve": Counterpart(make.valve(Valve43, switched=True), P_A_B_T, SPOOL),
-    "Hydraulic43Valve": Counterpart(make.valve(Valve43), P_A_B_T, SPOOL),
+    "Hydraulic32DirectionalValve": Counterpart(valves.valve(Valve33, switched=True), P_A_T, SPOOL),
+    "Hydraulic33Valve": Counterpart(valves.valve(Valve33), P_A_T, SPOOL),
+    "Hydraulic42DirectionalValve": Counterpart(valves.valve(Valve43, switched=True), P_A_B_T, SPOOL),
+    "Hydraulic43Valve": Counterpart(valves.valve(Valve43), P_A_B_T, SPOOL),
     "Hydraulic43LoadSensingValve": Counterpart(
-        make.valve(LoadSensingValve), P_A_B_T | {"PL": "port_l"}, SPOOL
+        valves.valve(LoadSensingValve), P_A_B_T | {"PL": "port_l"}, SPOOL
     ),
-    "HydraulicOpenCenterValve": Counterpart(make.valve(OpenCentreValve), CENTRE, SPOOL),
+    "HydraulicOpenCenterValve": Counterpart(valves.valve(OpenCentreValve), CENTRE, SPOOL),
     "HydraulicPressureSensor": Counterpart(
         lambda g: PressureSensor(fluid=g.fluid), {"P1": "port"}, {"out": "p"}
     ),
@@ -223,5 +224,11 @@ _SIGNAL: dict[str, Counterpart] = {
 TABLE: dict[str, Counterpart] = _HYDRAULIC | _MECHANIC | _SIGNAL
 FLOW_SENSOR = "HydraulicFlowSensor"
 """Stands in series with what it is connected to, so that the reader of a case places it."""
+NOTES = {
+    "HydraulicVolume": "volumes between two ports have the inertance of Hopsan's one-step line",
+    "HydraulicHose": "transit of hoses in whole steps, as in Hopsan",
+    "HydraulicPistonMload": "no dry friction: Hopsan's equations of the piston hold none",
+}
+"""What of Hopsan's discretisation, or of its omissions, our counterparts follow."""
 SINKS = ("SignalSink", "SignalScope")
 """Types that only show signals."""

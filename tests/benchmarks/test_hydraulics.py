@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from math import log, pi, sqrt
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
+from benchmarks.conformance import run
 from benchmarks.hydraulics import SOLVERS
 
 DIVIDER = {"A1": 1e-6, "A2": 3e-6, "p1": 90e5, "p2": 10e5, "Cd": 0.6, "rho": 900.0}
@@ -57,3 +60,35 @@ def test_a_wrong_reference_is_an_error() -> None:
     name = "hyd_cylinder_natural_frequency"
     error, _ = SOLVERS[name]({"parameters": CYLINDER, "reference": {"omega": 2 * pi * 100}}, Path())
     assert error > 0.01
+
+
+@pytest.mark.parametrize(("error", "passes"), [(0.0, True), (0.02, False)])
+def test_a_model_of_hopsan_is_scored_in_the_tube_of_its_case(
+    tmp_path: Path, error: float, passes: bool
+) -> None:
+    """A volume that fills through a laminar orifice: p = p_s (1 - exp(-t Kc beta/V)), as one line a signal."""
+    part = {"supply": ("HydraulicPressureSourceC", {"p#Value": "1e7"})}
+    part["orifice"] = ("HydraulicLaminarOrifice", {"Kc#Value": "1e-12"})
+    part["volume"] = ("HydraulicVolumeMultiPort", {"V#Value": "1e-4", "P1#Pressure": "0"})
+    part["gauge"] = ("HydraulicPressureSensor", {"P1#Pressure": "0"})
+    case = {
+        "name": "hopsan_Filling",
+        "simulation": {"start": "0", "stop": "0.5", "timestep": "0.001"},
+        "components": [
+            {"name": name, "type": kind, "parameters": {k: {"value": v} for k, v in values.items()}}
+            for name, (kind, values) in part.items()
+        ],
+        "connections": [["supply.P1", "orifice.P1"], ["orifice.P2", "volume.P1"], ["gauge.P1", "volume.P1"]],
+        "reference": {
+            "file": "reference.csv",
+            "signals": [{"name": "gauge#out#Value", "timecolumn": 0, "column": 1}],
+        },
+        "required": {"measure": "a tube of 1e-2 of the range and 5e-3 of the time span", "value": 0.0},
+    }
+    t = np.linspace(0.0, 0.5, 200)
+    p = 1e7 * (1 - np.exp(-t * 1e-12 * 1e9 / 1e-4)) + error * 1e7 * np.sin(100 * t)
+    (tmp_path / "case.json").write_text(json.dumps(case))
+    np.savetxt(tmp_path / "reference.csv", np.array([t, p]), delimiter=",")
+    outcome = run(tmp_path)
+    assert outcome.passed == passes
+    assert outcome.error is not None and (outcome.error > 0.1) != passes

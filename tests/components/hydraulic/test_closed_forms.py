@@ -118,7 +118,7 @@ class Reduced(Component):
 
 def test_a_reducing_valve_opens_as_far_as_its_flow_needs() -> None:
     """q = C_d A_max (p_set - p)/dp_range sqrt(2 (p_s - p)/rho), solved here by bisection."""
-    low, high = 4e6, 5e6
+    low, high, p = 4e6, 5e6, 0.0
     for _ in range(60):
         p = (low + high) / 2
         q = 0.7 * 1e-5 * (5e6 - p) / 1e6 * sqrt(2 * (2e7 - p) / 870.0)
