@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
@@ -52,7 +53,6 @@ def actuator_forces(torques: FloatArray, angles: FloatArray) -> FloatArray:
     return torques / moment_arms(angles)
 
 
-def limited(torques: FloatArray, angles: FloatArray, cylinders: Cylinders) -> FloatArray:
-    """Return the torques that the cylinders can give [N m]."""
-    arms = moment_arms(angles)
-    return np.minimum(np.maximum(torques / arms, -cylinders.pull), cylinders.push) * arms
+def limited(torques: ca.SX, arms: ca.SX, cylinders: Cylinders) -> ca.SX:
+    """Return the torques that the cylinders can give [N m], as an expression."""
+    return ca.fmin(ca.fmax(torques / arms, -cylinders.pull), cylinders.push) * arms

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import hypot
+from math import cos, hypot, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
 from arthur_acausal.models.arthur.dimensions import Dimensions
-from arthur_acausal.models.arthur.locomotion.actuation import Cylinders, limited
+from arthur_acausal.models.arthur.locomotion.actuation import Cylinders
 from arthur_acausal.models.arthur.locomotion.base_trajectory import BaseReference
 from arthur_acausal.models.arthur.locomotion.commands import Command, Commands, Constant
 from arthur_acausal.models.arthur.locomotion.estimation import Estimate, Estimator
@@ -18,20 +18,19 @@ from arthur_acausal.models.arthur.locomotion.foot_placement import foot_placemen
 from arthur_acausal.models.arthur.locomotion.gait_modulator import GaitModulator
 from arthur_acausal.models.arthur.locomotion.gaits import GAITS
 from arthur_acausal.models.arthur.locomotion.kernel import Kernel
-from arthur_acausal.models.arthur.locomotion.leg_model import dynamics, inverse_kinematics
+from arthur_acausal.models.arthur.locomotion.leg_model import inverse_kinematics
 from arthur_acausal.models.arthur.locomotion.leg_state import LegState
+from arthur_acausal.models.arthur.locomotion.leg_torques import leg_torques
 from arthur_acausal.models.arthur.locomotion.rotation import about_z, cross
 from arthur_acausal.models.arthur.locomotion.sensors import Reader
 from arthur_acausal.models.arthur.locomotion.settings import Noise, Settings
-from arthur_acausal.models.arthur.locomotion.stance_control import StanceControl, stance_torques
+from arthur_acausal.models.arthur.locomotion.stance_control import StanceControl
 from arthur_acausal.models.arthur.locomotion.stance_trajectory import (
     NEVER,
     FootPlan,
     foot_plan,
     stance_vectors,
 )
-from arthur_acausal.models.arthur.locomotion.swing_control import swing_acceleration
-from arthur_acausal.models.arthur.locomotion.swing_trajectory import swing_trajectory
 from arthur_acausal.models.arthur.locomotion.walk_state import Walk, walk_state
 
 FloatArray = NDArray[np.float64]
@@ -76,8 +75,7 @@ class Controller:
         self._legs = tuple(LegState(c.settings) for _ in range(4))
         self._reference = BaseReference(c.settings)
         self._stance_control = StanceControl(c.robot.mass, c.settings)
-        self._swing = Kernel(swing_trajectory())
-        self._dynamics = Kernel(dynamics(c.robot))
+        self._leg_torques = Kernel(leg_torques(c.robot, c.cylinders, c.settings))
         self._foot_plan = Kernel(foot_plan(n, h))
         self._postures = Kernel(inverse_kinematics(c.robot, n + 1))
         self._times: FloatArray = h * np.arange(n + 1.0)
@@ -215,44 +213,27 @@ class Controller:
 
     def _torques(self, state: Estimate, stance: BoolArray) -> FloatArray:
         """Return the joint torques within what the cylinders can give (7.12, 7.13)."""
-        c = self.configuration
-        desired = self._swing(
-            np.array([self._swing_state(i) for i in range(4)]),
-            np.full(4, self._modulator.T_sw),
-            self._start.reshape(-1),
-            self._v_0.reshape(-1),
-            self._end.reshape(-1),
-            self._v_1.reshape(-1),
-            self._height,
-        )
-        ask = swing_acceleration(
-            (desired[0], desired[1], desired[2]),
-            state.foot.reshape(-1),
-            state.foot_velocity.reshape(-1),
-            c.settings.stiffness,
-            c.settings.damping,
-        )
-        load, swing = self._dynamics(state.angles, state.speeds, -c.settings.gravity * state.R[2], ask)
-        press = load + stance_torques(self._force, state.R, state.jacobian).reshape(-1)
-        torques = np.where(np.repeat(stance, 3), press, swing)
-        return limited(torques, state.angles, c.cylinders)
+        states = [self._swing_state(i) for i in range(4)]
+        swing = [x.ravel() for x in (self._start, self._v_0, self._end, self._v_1)]
+        R, force, T_sw = state.R.T.ravel(), self._force.ravel(), self._modulator.T_sw
+        angles, speeds = state.angles, state.speeds
+        return self._leg_torques(stance, R, angles, speeds, force, states, T_sw, *swing, self._height)[0]
 
     def _outputs(self, state: Estimate, torques: FloatArray) -> FloatArray:
-        reference = self._reference
-        return np.concatenate(
-            [
-                torques,
-                self._modulator.S_st,
-                self._modulator.S_sw,
-                self._stance.astype(float),
-                state.contact.astype(float),
-                [reference.velocity[0], reference.velocity[1], reference.yaw_rate],
-                about_z(state.yaw).T @ state.velocity,
-                self._force.reshape(-1),
-                self._flow,
-                self._rates.reshape(-1),
-            ]
-        )
+        """Gather what outputs_of lists, in its order."""
+        reference, modulator = self._reference, self._modulator
+        c, s = cos(state.yaw), sin(state.yaw)
+        x, y, z = state.velocity.tolist()
+        small = [*modulator.S_st, *modulator.S_sw, *self._stance, *state.contact]
+        small += [
+            reference.velocity[0],
+            reference.velocity[1],
+            reference.yaw_rate,
+            c * x + s * y,
+            c * y - s * x,
+            z,
+        ]
+        return np.concatenate([torques, small, self._force.ravel(), self._flow, self._rates.ravel()])
 
 
 def outputs_of(settings: Settings) -> dict[str, slice]:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
+import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
 from arthur_acausal.models.arthur.dimensions import Dimensions
 from arthur_acausal.models.arthur.locomotion.kernel import Kernel
 from arthur_acausal.models.arthur.locomotion.leg_model import kinematics
-from arthur_acausal.models.arthur.locomotion.rotation import cross, euler_of, matrix_of
+from arthur_acausal.models.arthur.locomotion.rotation import euler_of, matrix_of
 from arthur_acausal.models.arthur.locomotion.sensors import Sensors
 from arthur_acausal.models.arthur.locomotion.settings import Settings
 
@@ -29,8 +31,7 @@ class Estimate:
     angles, speeds : of the joints [rad], [rad/s].
     contact : c_f, of each foot. foot, foot_velocity : centres in B (4, 3), relative to the trunk [m], [m/s].
     point : lowest points of the feet from the trunk's centre, in W (4, 3) [m].
-    jacobian : of the points' material in B, over the leg's joints (4, 3, 3). centre : of mass, from the trunk's
-        centre in W [m].
+    centre : of mass, from the trunk's centre in W [m].
     """
 
     R: FloatArray
@@ -47,8 +48,27 @@ class Estimate:
     foot: FloatArray
     foot_velocity: FloatArray
     point: FloatArray
-    jacobian: FloatArray
     centre: FloatArray
+
+
+@cache
+def odometry(robot: Dimensions) -> ca.Function:
+    """Return the function (q, dq, R, w) -> (foot, foot_velocity, point, said, centre) of the legs' kinematics.
+
+    R : trunk to world, by columns, 9. w : angular velocity in the trunk's frame. said : the trunk's velocity if the
+    material at a foot's lowest point is at rest, -(w x r + J dq), for each foot in the world, 12 [m/s]. The others: see
+    Estimate.
+    """
+    q, dq, R, w = ca.SX.sym("q", 12), ca.SX.sym("dq", 12), ca.SX.sym("R", 3, 3), ca.SX.sym("w", 3)
+    foot, foot_velocity, point, jacobian, centre = kinematics(robot)(q, dq, R[2, :].T)
+    points, said = [], []
+    for i in range(4):
+        mine = slice(3 * i, 3 * i + 3)
+        J = ca.reshape(jacobian[9 * i : 9 * i + 9], 3, 3)
+        points.append(R @ point[mine])
+        said.append(-R @ (ca.cross(w, point[mine]) + J @ dq[mine]))
+    outputs = [foot, foot_velocity, ca.vertcat(*points), ca.vertcat(*said), R @ centre]
+    return ca.Function("odometry", [q, dq, ca.vec(R), w], outputs, {"cse": True})
 
 
 class Estimator:
@@ -60,7 +80,7 @@ class Estimator:
     """
 
     def __init__(self, robot: Dimensions, settings: Settings, true_velocity: bool) -> None:
-        self._kinematics = Kernel(kinematics(robot))
+        self._odometry = Kernel(odometry(robot))
         self._settings = settings
         self._true = true_velocity
         self._position = np.zeros(3)
@@ -70,14 +90,9 @@ class Estimator:
     def __call__(self, sensors: Sensors, stance: BoolArray) -> Estimate:
         """Return the estimate; ``stance`` tells the legs that are meant to stand (c_sync)."""
         R = matrix_of(sensors.orientation)
-        outputs = self._kinematics(sensors.angles, sensors.speeds, R[2])
-        foot, foot_velocity, point_B, jacobian, centre = outputs
+        outputs = self._odometry(sensors.angles, sensors.speeds, R.T.ravel(), sensors.rate)
+        foot, foot_velocity, point, said = (x.reshape(4, 3).copy() for x in outputs[:4])
         contact = sensors.forces > self._settings.contact_force
-        J = jacobian.reshape(4, 3, 3).transpose(0, 2, 1)
-        point = point_B.reshape(4, 3) @ R.T
-        rate = R @ sensors.rate
-        relative = (J @ sensors.speeds.reshape(4, 3, 1))[:, :, 0]
-        said = -cross(rate, point) - relative @ R.T
         self._update(sensors, R, contact & stance, said, point)
         return Estimate(
             R,
@@ -85,15 +100,14 @@ class Estimator:
             self._position.copy(),
             self._velocity.copy(),
             sensors.rate,
-            rate,
+            R @ sensors.rate,
             sensors.angles,
             sensors.speeds,
             contact,
-            foot.reshape(4, 3).copy(),
-            foot_velocity.reshape(4, 3).copy(),
+            foot,
+            foot_velocity,
             point,
-            J.copy(),
-            R @ centre,
+            outputs[4].copy(),
         )
 
     def _update(

@@ -6,7 +6,7 @@ from typing import Any
 
 import casadi
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ class Kernel:
         for i, array in enumerate(self.outputs):
             buffer.set_res(i, array.data)
 
-    def __call__(self, *arguments: FloatArray) -> tuple[FloatArray, ...]:
+    def __call__(self, *arguments: ArrayLike) -> tuple[FloatArray, ...]:
         for array, argument in zip(self.inputs, arguments, strict=True):
             array[:] = argument
         self._trigger()

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
@@ -143,11 +144,10 @@ def solve(problem: ForceProblem) -> FloatArray:
     return np.asarray(x)
 
 
-def stance_torques(force: FloatArray, R: FloatArray, jacobian: FloatArray) -> FloatArray:
-    """Return the joint torques that press on the ground with the opposite of ``force`` (4, 3): -J^T R^T f [N m].
+def stance_torques(force: ca.SX, R: ca.SX, jacobian: ca.SX) -> ca.SX:
+    """Return a leg's torques that press on the ground with the opposite of ``force``: -J^T R^T f [N m].
 
-    ``jacobian`` (4, 3, 3) is that of the feet's contact points, in the trunk's frame.
+    ``force`` : of the ground on the foot, in the world [N]. ``R`` : trunk to world. ``jacobian`` : of the foot's
+    contact point, in the trunk's frame.
     """
-    local: FloatArray = force @ R
-    torques: FloatArray = -(local[:, None, :] @ jacobian)[:, 0]
-    return torques
+    return -jacobian.T @ R.T @ force

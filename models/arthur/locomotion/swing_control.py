@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
-FloatArray = NDArray[np.float64]
+import casadi as ca
 
 
 def swing_acceleration(
-    desired: tuple[FloatArray, FloatArray, FloatArray],
-    foot: FloatArray,
-    velocity: FloatArray,
-    stiffness: float,
-    damping: float,
-) -> FloatArray:
-    """Return the accelerations to ask of the feet [m/s^2]: a + k (p - x) + d (v - dx/dt), all in the trunk's frame.
+    p: ca.SX, v: ca.SX, a: ca.SX, foot: ca.SX, velocity: ca.SX, stiffness: float, damping: float
+) -> ca.SX:
+    """Return the acceleration to ask of a foot [m/s^2]: a + k (p - x) + d (v - dx/dt), all in the trunk's frame.
 
-    ``leg_model.dynamics`` turns them into torques, by the operational-space inertia, Coriolis and gravity terms.
+    ``leg_model.dynamics`` turns it into torques, by the operational-space inertia, Coriolis and gravity terms.
 
     Parameters
     ----------
-    desired : position, velocity, acceleration of the swing trajectory. stiffness : k [1/s^2]. damping : d [1/s].
+    p, v, a : position, velocity, acceleration of the swing trajectory. foot, velocity : x and dx/dt, measured.
+    stiffness : k [1/s^2]. damping : d [1/s].
     """
-    p, v, a = desired
-    result: FloatArray = a + stiffness * (p - foot) + damping * (v - velocity)
-    return result
+    return a + stiffness * (p - foot) + damping * (v - velocity)

@@ -45,7 +45,6 @@ def estimate(**changes: Any) -> Estimate:
         foot=moved(0.0, 0.0, 0.02),
         foot_velocity=np.zeros((4, 3)),
         point=FEET,
-        jacobian=np.zeros((4, 3, 3)),
         **STANDING,
     )
     return replace(still, **changes)
