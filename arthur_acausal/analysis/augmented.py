@@ -153,6 +153,10 @@ class Stretch:
         """Return the parameters of the run; they are given already."""
         return self.point.p
 
+    def ignored_starts(self, start: Mapping[str, Any] | None = None) -> list[str]:
+        """Return none: all of them count."""
+        return []
+
     def attributes(self, p: FloatArray) -> Attributes:
         """Return attributes: all states start where the stretch begins."""
         n = self.n

@@ -37,6 +37,7 @@ class CompiledDAE:
 
     The vector p holds the parameters, then the start values of variables, then those of discrete variables.
     z are the discrete variables (zp: before the event), m the frozen truth values of the relations.
+    ``ignored``: notes of start values that were given in vain.
     ``starting``: the system that holds in place of this one while initial values are sought, where it is another. If
     it ``blends``, its p has one entry more: the part of homotopy's actual expressions.
     """
@@ -73,6 +74,7 @@ class CompiledDAE:
     sets: StateSets | None = field(repr=False)
     dummies: frozenset[int] = field(repr=False)
     blends: bool = False
+    ignored: list[str] = field(default_factory=list, repr=False)
     starting: CompiledDAE | None = field(default=None, repr=False)
 
     @property
@@ -113,6 +115,12 @@ class CompiledDAE:
                 )
         return full
 
+    def ignored_starts(self, start: Mapping[str, Any] | None = None) -> list[str]:
+        """Return notes of the start values that nothing uses: the model's, and a run's own."""
+        given = [p for p in start or {} if self.starts[self._start_entry(p)[0]].index < 0]
+        known = {note.partition(" ")[0] for note in self.ignored}
+        return self.ignored + [f"{p}: it is computed from other unknowns" for p in given if p not in known]
+
     def _start_entry(self, path: str) -> tuple[int, int]:
         if path not in self.start_aliases:
             raise ParameterError(
@@ -128,15 +136,19 @@ class CompiledDAE:
         given = np.zeros(self.n, dtype=bool)
         fixed = np.zeros(self.n, dtype=bool)
         z_start = np.zeros(len(self.z_paths))
+        origin = [" (no start value given)"] * self.n
         for entry in self.starts:
             if entry.sign == 0:
                 z_start[entry.index] = p[entry.place]
             elif entry.index >= 0 and not np.isnan(p[entry.place]):
                 start[entry.index] = entry.sign * p[entry.place]
                 given[entry.index] = True
+                own = entry.path == self.y_paths[entry.index]
+                told = ", ".join(text for text in ("" if own else f"of {entry.path}", entry.where) if text)
+                origin[entry.index] = f" ({told})" if told else ""
                 fixed[entry.index] |= entry.fixed
         start = np.clip(start, self.minimum, self.maximum)
-        return Attributes(start, fixed, given, self.nominal, self.minimum, self.maximum, z_start)
+        return Attributes(start, fixed, given, self.nominal, self.minimum, self.maximum, z_start, origin)
 
     def completed(self, arguments: Sequence[FloatArray], need: Need = "values") -> list[FloatArray]:
         """Return the functions' arguments, a column a time, with what external functions give there."""

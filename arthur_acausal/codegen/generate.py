@@ -20,7 +20,7 @@ from arthur_acausal.codegen.compiled import CompiledDAE, as_bools, pattern_of
 from arthur_acausal.codegen.event_kernels import placed_row, samples_of, time_only, whens_of
 from arthur_acausal.codegen.kernel import compile_functions
 from arthur_acausal.codegen.recovery import Recovery, Source
-from arthur_acausal.codegen.starts import attribute_arrays, collect_starts
+from arthur_acausal.codegen.starts import attribute_arrays, collect_starts, ignored_starts
 from arthur_acausal.codegen.switching import RELATION, add_switching, continuation_starts
 from arthur_acausal.codegen.tables import BoolArray, Relation
 from arthur_acausal.codegen.values import parameter_table, start_entries, start_value
@@ -80,6 +80,7 @@ def generate(
         sets=dae.reduced.sets,
         dummies=dae.reduced.dummies,
         blends=starting and "homotopy" in start_only,
+        ignored=ignored_starts(dae, assembly.y_nodes),
         starting=generate(dae, compile="never", starting=True) if own_start else None,
         **tables,
     )

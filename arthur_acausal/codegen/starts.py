@@ -19,6 +19,8 @@ FloatArray = NDArray[np.float64]
 def collect_starts(dae: StructuredDAE) -> list[StartSlot]:
     """Return the start values that count: for each unknown all fixed ones, else the outermost that was given.
 
+    Unknowns of the integrator without one get a place for it, which a run may fill.
+
     Raises InitializationError where a fixed start stands against something known.
     """
     candidates: dict[int, list[tuple[int, int, Declared]]] = {}
@@ -38,7 +40,31 @@ def collect_starts(dae: StructuredDAE) -> list[StartSlot]:
             assert declared.start is not None
             value: float | SX = declared.start.value  # type: ignore[assignment]
             slots.append(StartSlot(node, sign, value, bool(fixed), declared.path, declared.where))
-    return slots
+    empty = [n for n in dae.causal.states + dae.causal.torn if n not in candidates]
+    return slots + [StartSlot(n, 1, math.nan, False, dae.nodes.name(n)) for n in empty]
+
+
+def ignored_starts(dae: StructuredDAE, y_nodes: list[int]) -> list[str]:
+    """Return notes of the start values that were given for a place where nothing uses them, and of why."""
+    kept = set(y_nodes)
+    taken: dict[int, list[Declared]] = {}
+    for i, declared in enumerate(dae.flat.variables):
+        if declared.start is not None and declared.guessed and not declared.start.fixed:
+            ref = dae.nodes.of_variable(i)
+            if ref.kind == "node":
+                taken.setdefault(ref.number, []).append(declared)
+    notes = []
+    for node, found in taken.items():
+        best = min(found, key=lambda d: d.depth)
+        if node not in kept:
+            notes += [f"{d.path} ({d.where}): it is computed from other unknowns" for d in found]
+        else:
+            notes += [
+                f"{d.path} ({d.where}): that of {best.path}, which equals it, counts"
+                for d in found
+                if d is not best and str(d.start) != str(best.start)
+            ]
+    return notes
 
 
 def _check_known(declared: Declared, kind: str) -> None:

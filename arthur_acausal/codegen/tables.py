@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -84,7 +84,10 @@ class Pattern:
 
 @dataclass(frozen=True, slots=True)
 class Attributes:
-    """Attributes of y, each (n,), for one vector of parameters; ``z_start`` (nz,) of the discrete variables."""
+    """Attributes of y, each (n,), for one vector of parameters; ``z_start`` (nz,) of the discrete variables.
+
+    ``origin``: where each start comes from, in brackets.
+    """
 
     start: FloatArray
     fixed: BoolArray
@@ -93,6 +96,7 @@ class Attributes:
     min: FloatArray
     max: FloatArray
     z_start: FloatArray
+    origin: Sequence[str] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,3 +109,4 @@ class StartEntry:
     fixed: bool
     unit: str
     place: int
+    where: str = ""

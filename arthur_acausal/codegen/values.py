@@ -54,6 +54,7 @@ def start_entries(
             s.fixed,
             variables[dae.nodes.all[s.node].variable].quantity.unit,
             first + k,
+            s.where,
         )
         for k, s in enumerate(slots)
     ]

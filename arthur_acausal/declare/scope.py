@@ -47,6 +47,13 @@ class Declared:
     depth: int = 0  # of the modification's owner; 0 is the root: the outermost modification wins
     where: str = ""  # file:line of the component that it belongs to
 
+    @property
+    def guessed(self) -> bool:
+        """Whether a start value was chosen for this place: by a modification, or by the whole model's own class."""
+        if self.start is None or self.start.value is None:
+            return False
+        return self.depth <= self.path.count(".") or "." not in self.path
+
 
 class Later(NamedTuple):
     """A value given as a function of the component ``source``: it is called when all parts are there."""

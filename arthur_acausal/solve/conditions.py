@@ -1,7 +1,8 @@
 """Which initial conditions to use: all that are given if they fit, start values for states that have none.
 
 n unknowns y and the derivatives of the s states stand against n equations F = 0; s initial conditions must come in
-addition. A maximum matching, extended in order of preference, finds which fit.
+addition. A maximum matching, extended in order of preference, finds which fit. Where there is a choice among the
+states that keep their start values, those are taken that the equations leave most free, in units of their nominals.
 """
 
 from __future__ import annotations
@@ -11,11 +12,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from arthur_acausal.graph import dulmage_mendelsohn, matching
-from arthur_acausal.solve.consistent import Entries
+from arthur_acausal.solve.consistent import DENSE_UP_TO, Entries
 from arthur_acausal.solve.newton import Index
 from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator
 
 Edges = list[list[int]]
+GUESSED = 1e-6  # weight of a state whose start value nobody gave
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +114,8 @@ def _match(
         assignment = matching(edges, 2 * n, assignment)
     assumed = [j for j, v in zip(candidates, assignment[n + len(rest) :], strict=True) if v >= 0]
     chosen = [k for k, v in zip(rest, assignment[n:], strict=False) if v >= 0]
+    if 0 < len(assumed) < len(candidates) and n <= DENSE_UP_TO:
+        assumed = _freest(dae, evaluator, attributes, pinned, chosen, candidates, len(assumed)) or assumed
     surplus = [k for k, v in zip(rest, assignment[n:], strict=False) if v < 0]
     conflict: list[int] = []
     if surplus:
@@ -129,6 +133,45 @@ def _match(
         conflict,
         undetermined,
     )
+
+
+def _freest(
+    dae: DAE,
+    evaluator: Evaluator,
+    attributes: Attributes,
+    pinned: set[int],
+    chosen: list[int],
+    candidates: list[int],
+    count: int,
+) -> list[int]:
+    """The states to hold, out of the candidates: together they move most, in nominals, along the null space.
+
+    Pivoted QR picks them (Golub and Van Loan (2013), Matrix Computations, section 5.4.2), those with a start value
+    first. None if the matrix at the start does not have the rank that the structure promises.
+    """
+    from scipy.linalg import null_space, qr
+
+    n, entries = dae.n, Entries.of(dae)
+    values = np.concatenate(
+        [evaluator.jacobian_y().copy(), evaluator.jacobian_yp().copy(), evaluator.initial_jacobian()]
+    )
+    matrix = np.zeros((n + dae.n_init, 2 * n))
+    matrix[entries.row, entries.column] = values
+    nominal = np.abs(attributes.nominal)
+    unknown = sorted(set(range(n)) - pinned) + (n + np.flatnonzero(dae.differential)).tolist()
+    matrix = (matrix * np.tile(nominal, 2))[np.ix_([*range(n), *(n + k for k in chosen)], unknown)]
+    if not np.isfinite(matrix).all():
+        return []
+    size = np.abs(matrix).max(axis=1)
+    null = null_space(matrix / np.where(size > 0.0, size, 1.0)[:, None])
+    if null.shape[1] != count:
+        return []
+    weight = np.where(attributes.start_given[candidates], 1.0, GUESSED)
+    rows = null[[unknown.index(j) for j in candidates]] * weight[:, None]
+    _, triangle, order = qr(rows.T, mode="economic", pivoting=True)
+    if abs(triangle[count - 1, count - 1]) < GUESSED**2:
+        return []
+    return [candidates[k] for k in order[:count].tolist()]
 
 
 def _pinning(dae: DAE, conflict: list[int], simple: dict[int, int]) -> list[int]:

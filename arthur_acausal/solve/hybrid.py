@@ -75,7 +75,7 @@ class HybridRun:
         self._samples = Samples(dae, evaluator, start_time)
         self._accumulation = Accumulation(stop_time - start_time, options)
         self._recorder = Recorder()
-        self._begin = begin
+        self._begin, self._given = begin, start
         self._events: list[Event] = []
         self._ended: tuple[Status, str] | None = None
         self._stepping = self._affected = False
@@ -83,6 +83,9 @@ class HybridRun:
 
     def initialize(self) -> None:
         """Find consistent values at the start, or take those that are given."""
+        ignored = self._dae.ignored_starts(self._given)
+        if ignored:
+            self._statistics.messages.append(f"start values that nothing uses: {listed(ignored, '; ')}")
         if self._begin is not None:
             done = adopt(self._begin, self._evaluator, self._modes)
         else:

@@ -175,7 +175,8 @@ def _notices(dae: DAE, attributes: Attributes, evaluator: Evaluator, conditions:
     """What was assumed."""
     messages = []
     if conditions.assumed.size:
-        names = [f"{dae.y_paths[j]} = {evaluator.y[j]:g}" for j in conditions.assumed.tolist()]
+        chosen = conditions.assumed.tolist()
+        names = [f"{dae.y_paths[j]} = {evaluator.y[j]:g}{attributes.origin[j]}" for j in chosen]
         messages.append(f"no initial condition, start value taken: {listed(names)}")
     if conditions.surplus:
         labels = [dae.init_labels[k] for k in conditions.surplus]

@@ -60,6 +60,8 @@ def causalise(system: ReducedSystem, nodes: Nodes) -> CausalSystem:
         for row, e, own in zip(system.rows, system.edges, edges, strict=True)
     ]
     algebraic = [[v for v in row if unknown[v] not in rates] for row in needed]
+    guessed = _guessed(nodes)
+    preference = [int(n in guessed) for n in unknown]
     assignments: list[Assignment] = []
     torn: list[int] = []
     residuals: list[int] = []
@@ -67,7 +69,7 @@ def causalise(system: ReducedSystem, nodes: Nodes) -> CausalSystem:
     blocks = blt(needed, assigned)
     for block in blocks:
         inside = [assigned[e] for e in block if unknown[assigned[e]] not in rates]
-        result = _shortened(tear(block, inside, algebraic, solvable), algebraic)
+        result = _shortened(tear(block, inside, algebraic, solvable, preference), algebraic)
         for row, variable in result.sequence:
             node = unknown[variable]
             assignments.append(Assignment(row, node, system.edges[row][node]))
@@ -82,6 +84,12 @@ def causalise(system: ReducedSystem, nodes: Nodes) -> CausalSystem:
 def _with_inputs(row: Row, edges: dict[int, Coefficient]) -> dict[int, Coefficient]:
     """Return the unknowns of a row and of all inputs of its external function: a call gives all outputs at once."""
     return {r.number: None for r in row.refs if r.kind == "node"} | edges
+
+
+def _guessed(nodes: Nodes) -> set[int]:
+    """Return the nodes that somebody gave a start value: as torn unknowns they begin there."""
+    refs = (nodes.of_variable(i) for i, declared in enumerate(nodes.flat.variables) if declared.guessed)
+    return {ref.number for ref in refs if ref.kind == "node"}
 
 
 def _shortened(result: TearingResult, edges: list[list[int]]) -> TearingResult:

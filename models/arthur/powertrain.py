@@ -101,7 +101,7 @@ class Powertrain(Component):
             z=start(0.04, fixed=True),
             v=start(0.0, fixed=True),
             p=start(P_START, fixed=not self.balanced),
-            p_g=start(P_START, fixed=choice.gas == "integrated"),
+            p_g=start(P_START if choice.gas == "integrated" else None, fixed=choice.gas == "integrated"),
         )
         if self.audit:
             self._add_meters()

@@ -113,6 +113,7 @@ class Attributes:
     min: FloatArray
     max: FloatArray
     z_start: FloatArray
+    origin: Sequence[str]
 
 
 @dataclass
@@ -212,6 +213,9 @@ class Handmade:
         """The symbols behind `parameter_vector`."""
         return [*(symbol for symbol, _ in self.parameters.values()), *self._starts.values()]
 
+    def ignored_starts(self, start: Mapping[str, Any] | None = None) -> list[str]:
+        return []
+
     def attributes(self, p: FloatArray) -> Attributes:
         ys, starts = self.ys, p[len(self.parameters) :]
         return Attributes(
@@ -222,6 +226,7 @@ class Handmade:
             np.array([v.min for v in ys]),
             np.array([v.max for v in ys]),
             starts[self.n :].copy(),
+            [""] * self.n,
         )
 
     def evaluator(self) -> HandmadeEvaluator:

@@ -172,3 +172,77 @@ def test_terminate_at_the_start() -> None:
 
 def test_a_model_without_these_has_no_system_of_its_own_for_the_start() -> None:
     assert translate(Resting()).dae.starting is None
+
+
+class Pair(Component):
+    """Two unknowns of one block; either can be torn. a (a + 2) = 3: a = 1 or -3, b = a + 1."""
+
+    a: Real = variable("1")
+    b: Real = variable("1")
+    s: Real = variable("1", start=0.0, fixed=True)
+    k: Real = parameter("1/s", default=1.0)
+
+    def equations(self) -> Equations:
+        yield self.a == self.b - 1
+        yield self.b == 3 / (self.a + 2) + 1
+        yield der(self.s) == self.k * self.a
+
+
+class Outer(Component):
+    pair: Pair = Pair()
+    twin: Pair = Pair()
+
+    def equations(self) -> Equations:
+        yield from ()
+
+
+@pytest.mark.parametrize(
+    ("guess", "root"), [({"a": 1.5}, 1.0), ({"a": -5.0}, -3.0), ({"b": 3.0}, 1.0), ({"b": -4.0}, -3.0)]
+)
+def test_a_variable_with_a_given_start_is_torn_and_begins_there(guess: dict[str, float], root: float) -> None:
+    solution = translate(Outer(pair=Pair(**guess))).simulate(1.0)
+    assert solution.initial("pair.a") == pytest.approx(root)
+    assert not any("nothing uses" in message for message in solution.statistics.messages)
+
+
+def test_a_start_value_that_nothing_uses_is_told_of() -> None:
+    model = translate(Outer(pair=Pair(a=1.5, b=3.0)))
+    torn = next(path for path in ("pair.a", "pair.b") if path in model.report.torn)
+    other = ({"pair.a", "pair.b"} - {torn}).pop()
+    told = model.simulate(1.0).statistics.messages
+    assert any(m.startswith("start values that nothing uses") and other in m and torn not in m for m in told)
+
+
+def test_a_run_may_give_a_guess_to_any_unknown() -> None:
+    model = translate(Outer())
+    torn = model.report.torn[0]
+    offset = 0.0 if torn.endswith("a") else 1.0
+    for guess, root in ((3.0, 1.0), (-6.0, -3.0)):
+        solution = model.simulate(1.0, start={torn: guess})
+        assert solution.initial("pair.a") == pytest.approx(root)
+        assert solution.initial(torn) == pytest.approx(root + offset)
+
+
+class Sum(Component):
+    """x + y + z = 10, so that two of the three keep their start: the small ones, which move more in their own units."""
+
+    x: Real = variable("1", start=1.0, nominal=100.0)
+    y: Real = variable("1", start=2.0, nominal=0.1)
+    z: Real = variable("1", start=0.5, nominal=0.01)
+    w: Real = variable("1")
+    T: Real = parameter("s", default=1.0)
+
+    def equations(self) -> Equations:
+        for state in (self.x, self.y, self.z, self.w):
+            yield self.T * der(state) == -state
+
+    def initial_equations(self) -> Equations:
+        yield self.x + self.y + self.z == 10
+
+
+def test_states_to_hold_are_chosen_by_their_nominals_and_told_with_their_origin() -> None:
+    solution = translate(Sum()).simulate(1.0)
+    assert [solution.initial(p) for p in "xyzw"] == pytest.approx([7.5, 2.0, 0.5, 0.0])
+    (told,) = solution.statistics.messages
+    assert told.startswith("no initial condition, start value taken: y = 2 (test_start.py:")
+    assert told.endswith("w = 0 (no start value given)")
