@@ -93,6 +93,7 @@ class Powertrain(Component):
         self.valves = [ServoValve(law=choice.valve_law, spool=choice.spool) for _ in range(self.n)]
         self.cylinders = [self._cylinder(i) for i in range(self.n)]
         self.loads = [LoadForce() for _ in range(self.n)]
+        gas_start: dict[str, Any] = {"p_g": start(P_START, fixed=True)} if choice.gas == "integrated" else {}
         self.reservoir = GasReservoir(
             gas=choice.gas,
             stop_events=choice.stop_events,
@@ -101,7 +102,7 @@ class Powertrain(Component):
             z=start(0.04, fixed=True),
             v=start(0.0, fixed=True),
             p=start(P_START, fixed=not self.balanced),
-            p_g=start(P_START if choice.gas == "integrated" else None, fixed=choice.gas == "integrated"),
+            **gas_start,
         )
         if self.audit:
             self._add_meters()
