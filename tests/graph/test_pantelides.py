@@ -200,3 +200,24 @@ def test_states_that_cannot_be_chosen_are_named_by_their_numbers() -> None:
     with pytest.raises(StructurallySingular) as caught:
         select_states(edges, derivative, [2, 3, -1, -1], [2, 2, 2, 2])
     assert caught.value.too_many == Conflict([2, 3], [1], 0)
+
+
+def test_numbers_of_variables_mean_nothing() -> None:
+    # variable 0 is the derivative of 1, and that the derivative of 2
+    assert chains([-1, 0, 1, -1]) == [2, 2, 2, 3]
+    # x = 0 for x = 1, x' = 0: one differentiation determines x', whatever its number
+    result = pantelides([[1]], [-1, 0])
+    assert result.edges == [[1], [0, 1]]
+    assert (result.derivative, result.equation_derivative, result.assignment) == ([-1, 0], [1, -1], [-1, 0])
+    assert select_states(result.edges, result.derivative, result.equation_derivative, [2, 2]).dummies == [0]
+
+
+def test_a_constraint_of_index_three_by_hand() -> None:
+    # x' = v, v' = F, x = 0 with x, x', v, v', F = 0 .. 4: x = 0 and x' = v are differentiated, twice and once.
+    result = pantelides([[1, 2], [3, 4], [0]], [1, -1, 3, -1, -1])
+    assert result.derivative == [1, 5, 3, -1, -1, -1]
+    assert result.equation_derivative == [4, -1, 3, 5, -1, -1]
+    assert [sorted(e) for e in result.edges[3:]] == [[0, 1], [1, 2, 3, 5], [0, 1, 5]]
+    assert result.assignment == [-1, 4, -1, -1, 3, 5]
+    selection = select_states(result.edges, result.derivative, result.equation_derivative, [2] * 6)
+    assert (selection.dummies, selection.states) == ([1, 3, 5], [])

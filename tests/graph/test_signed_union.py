@@ -79,3 +79,27 @@ def test_plain_union(pairs: list[tuple[int, int]]) -> None:
     assert all((sets.find(i) == sets.find(j)) == (label[i] == label[j]) for i in range(8) for j in range(8))
     assert sets.add() == len(sets) - 1 == 8
     assert [8] in sets.sets()
+
+
+def test_the_lower_tree_goes_below_the_higher_one() -> None:
+    plain, signed = Union(5), SignedUnion(5)
+    for i, j in ((0, 1), (2, 3), (1, 3), (4, 0)):
+        plain.union(i, j)
+        signed.union(i, j, 1)
+    # equal heights: the second root stays; 4 alone goes below 3, whichever side it stands on
+    assert [plain.find(i) for i in range(5)] == [3] * 5
+    assert [signed.find(i) for i in range(5)] == [(3, 1)] * 5
+    plain, signed = Union(3), SignedUnion(3)
+    for i, j in ((0, 1), (1, 2)):
+        plain.union(i, j)
+        signed.union(i, j, -1)
+    assert [plain.find(i) for i in range(3)] == [1] * 3
+    assert [signed.find(i) for i in range(3)] == [(1, -1), (1, 1), (1, -1)]
+
+
+def test_zero_is_kept_when_sets_merge() -> None:
+    for first, second in ((0, 1), (1, 0)):
+        sets = SignedUnion(3)
+        sets.union(0, 0, -1)
+        assert sets.union(first, second, 1) is Outcome.MERGED
+        assert [sets.is_zero(i) for i in range(3)] == [True, True, False]

@@ -46,6 +46,15 @@ def test_preferred_variable_is_torn() -> None:
         assert tear(range(3), range(3), edges, edges, preference).torn_variables == [wanted]
 
 
+def test_the_choice_of_a_literal_block() -> None:
+    # Variable 2 is in four equations, each other one in two: it is torn; the rest follows in order.
+    edges = [[0, 2], [0, 1, 2], [1, 2, 3], [2, 3]]
+    result = tear(range(4), range(4), edges, edges)
+    assert result.torn_variables == [2]
+    assert result.sequence == [(0, 0), (3, 3), (1, 1)]
+    assert result.residual_equations == [2]
+
+
 def test_known_variables_and_repeated_edges_do_not_count() -> None:
     result = tear([0], [1], [[0, 1, 1, 2]], [[0, 1, 2]])
     assert result.sequence == [(0, 1)]

@@ -11,6 +11,7 @@ from arthur_acausal import (
     Component,
     Equations,
     Real,
+    StructureError,
     connect,
     der,
     parameter,
@@ -21,6 +22,8 @@ from arthur_acausal import (
 )
 from arthur_acausal.components.rotational import Inertia, TorqueSource
 from arthur_acausal.declare.quantity import StateSelect
+from arthur_acausal.flatten.flatten import flatten
+from arthur_acausal.transform.structured import transform
 from tests.circuit import Capacitor, Current, Ground, Inductor, Resistor, Voltage
 
 
@@ -44,6 +47,15 @@ class Pendulum(Component):
 
     def initial_equations(self) -> Equations:
         yield "at rest", self.x * self.vy - self.y * self.vx == 0
+
+
+def test_a_set_of_dummies_that_does_not_fit_is_refused() -> None:
+    flat = flatten(Pendulum())
+    fitting = transform(flat)
+    assert len(fitting.reduced.dummies) == 2  # the first and the second derivative of x, or those of y
+    assert transform(flat, fitting.reduced.dummies).causal.states == fitting.causal.states
+    with pytest.raises(StructureError, match="more than their unknowns"):
+        transform(flat, frozenset())
 
 
 def test_the_pendulum_is_of_index_3_and_has_two_states() -> None:
