@@ -15,6 +15,8 @@ from arthur_acausal.graph.dummy_derivative import PRIORITIES as PRIORITIES
 from arthur_acausal.graph.dummy_derivative import StateSelection as StateSelection
 from arthur_acausal.graph.dummy_derivative import select_dummies as select_dummies
 from arthur_acausal.graph.dummy_derivative import select_states as select_states
+from arthur_acausal.graph.echelon import Echelon as Echelon
+from arthur_acausal.graph.echelon import SparseRow as SparseRow
 from arthur_acausal.graph.matching import augment as augment
 from arthur_acausal.graph.matching import inverse as inverse
 from arthur_acausal.graph.matching import matching as matching

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-import casadi as ca
 from casadi import SX
 
-from arthur_acausal.declare.scope import Atom
 from arthur_acausal.errors import StructureError
-from arthur_acausal.flatten.block import Expression
 from arthur_acausal.graph import PRIORITIES, Conflict, StructurallySingular, pantelides, select_states
+from arthur_acausal.transform.dependent import combine_dependent
+from arthur_acausal.transform.derive import differentiated
 from arthur_acausal.transform.linear import Coefficient, LinearAnalysis
-from arthur_acausal.transform.rows import Evaluator, Nodes, Ref, Row, incidence
+from arthur_acausal.transform.rows import Evaluator, Nodes, Row, incidence
 from arthur_acausal.transform.state_sets import StateSets, state_sets
 
 _GLADLY = {
@@ -24,7 +23,6 @@ _GLADLY = {
     "always": 1e-6,
 }  # a derivative is a dummy
 
-HELD = ("parameter", "discrete", "pre", "mode", "initial", "homotopy")  # constant between events
 LISTED = 12  # names in one message
 
 
@@ -35,7 +33,8 @@ class ReducedSystem:
     ``edges``: node -> coefficient for each row. ``dummies``: derivative nodes that became algebraic unknowns.
     ``differentiated``: the rows that were differentiated, as text. ``index``: 0 or 1 as it was, 2 and more where
     rows were differentiated (once, twice, ...). ``sets``: what else could be states, where a set may become
-    singular, with the entries of its Jacobian, each an expression over the symbols of its row.
+    singular, with the entries of its Jacobian, each an expression over the symbols of its row. ``combined``: the
+    combinations that took the place of equations, as text.
     """
 
     rows: list[Row]
@@ -45,6 +44,7 @@ class ReducedSystem:
     index: int
     sets: StateSets | None = None
     entries: list[tuple[Row, SX]] = field(default_factory=list)
+    combined: list[str] = field(default_factory=list)
 
 
 def reduce_index(
@@ -59,15 +59,22 @@ def reduce_index(
     ``dummies``: the dummy derivatives, if they were chosen by numbers; else they are chosen by structure.
     Raises StructureError where no number of differentiations makes equations and unknowns match.
     """
-    edges = [incidence(row, linear) for row in rows]
-    try:
-        result = pantelides([list(e) for e in edges], nodes.derivative)
-    except StructurallySingular as singular:
-        raise _singular(singular, rows, nodes) from None
+    edges, combined = [incidence(row, linear) for row in rows], []
+    while True:
+        try:
+            result = pantelides([list(e) for e in edges], nodes.derivative)
+        except StructurallySingular as singular:
+            raise _singular(singular, rows, nodes) from None
+        new = combine_dependent(rows, edges, result, nodes, evaluator)
+        if not new:
+            break
+        combined += [row.text for row in new.values()]
+        rows = nodes.without_unused([new.get(i, row) for i, row in enumerate(rows)])
+        edges = [incidence(row, linear) for row in rows]
     if len(result.edges) == len(rows):
         rates = set(nodes.derivative)
         index = int(any(n not in rates for n in result.assignment if n >= 0))
-        return ReducedSystem(rows, edges, frozenset(), [], index)
+        return ReducedSystem(rows, edges, frozenset(), [], index, combined=combined)
     made = len(nodes.all)
     for successor, node in sorted((s, n) for n, s in enumerate(result.derivative) if s >= made):
         number = nodes.derivative_of(node)
@@ -75,7 +82,7 @@ def reduce_index(
     rows = list(rows)
     for equation in range(len(rows), len(result.edges)):
         origin = result.equation_derivative.index(equation)
-        rows.append(_differentiated(rows[origin], nodes, linear, evaluator))
+        rows.append(differentiated(rows[origin], nodes, evaluator))
         edges.append(incidence(rows[-1], linear))
     quantities = [nodes.flat.variables[v].quantity for v, _ in nodes.all]
     if dummies is None:
@@ -91,7 +98,7 @@ def reduce_index(
     sets = state_sets(rows, nodes, nodes.derivative, result.equation_derivative, weight)
     texts = [rows[e].text for e, successor in enumerate(result.equation_derivative) if successor >= 0]
     return ReducedSystem(
-        rows, edges, dummies, texts, 1 + _depth(result.equation_derivative), *(sets or (None, []))
+        rows, edges, dummies, texts, 1 + _depth(result.equation_derivative), *(sets or (None, [])), combined
     )
 
 
@@ -106,51 +113,6 @@ def _depth(successors: Sequence[int]) -> int:
         if successors[e] >= 0:
             depth[e] = 1 + depth[successors[e]]
     return max(depth)
-
-
-def _differentiated(row: Row, nodes: Nodes, linear: LinearAnalysis, evaluator: Evaluator) -> Row:
-    """Return the time derivative of a row, over symbols of its own."""
-    symbols: dict[Ref, SX] = {}
-
-    def symbol(ref: Ref) -> SX:
-        if ref.kind == "zero":
-            return SX(0.0)
-        plain = Ref(ref.kind, ref.number)
-        if plain not in symbols:
-            symbols[plain] = SX.sym(
-                nodes.name(ref.number) if ref.kind == "node" else f"{ref.kind}_{ref.number}"
-            )
-        return symbols[plain]
-
-    value = evaluator(row, symbol)
-    if row.expression.through is not None:
-        raise StructureError(
-            f"{row.text}: must be differentiated, but it calls an external function",
-            cause="a constraint between states goes through the function, whose derivative in time is not known",
-            remedy="let the function give the highest derivative (accelerations, not positions), or put an element "
-            "with a state of its own (a spring, a volume) between the function and what it is rigidly joined to",
-        )
-    total = SX(0.0)
-    for ref, own in list(symbols.items()):
-        slope = ca.jacobian(value, own)
-        if slope.nnz() == 0 or ref.kind in HELD:
-            continue
-        if ref.kind == "input":
-            raise StructureError(
-                f"{row.text}: must be differentiated, but it depends on an external input",
-                cause="a constraint between states contains a signal whose derivative is not known",
-                remedy="pass the signal through a filter within the model",
-            )
-        rate = SX(1.0) if ref.kind == "time" else symbol(Ref("node", nodes.derivative_of(ref.number)))
-        total = total + slope * rate
-    used = {s.element_hash() for s in ca.symvar(total)}
-    refs = [ref for ref, own in symbols.items() if own.element_hash() in used]
-    atoms = [
-        Atom("variable" if r.kind == "node" else "parameter" if r.kind == "parameter" else "time", r.number)
-        for r in refs
-    ]
-    expression = Expression(total, [symbols[r] for r in refs], atoms)
-    return Row(expression, tuple(refs), f"der({row.text})")
 
 
 def _singular(singular: StructurallySingular, rows: list[Row], nodes: Nodes) -> StructureError:

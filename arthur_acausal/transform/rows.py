@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple, TypeAlias
 
 import casadi as ca
@@ -98,6 +98,30 @@ class Nodes:
             self.all.append(Node(self.all[node].variable, self.all[node].order + 1))
             self.derivative.append(-1)
         return self.derivative[node]
+
+    def without_unused(self, rows: Sequence[Row]) -> list[Row]:
+        """Take out derivatives that stand in no row, and number the rest anew; return the rows over them."""
+        used = {ref.number for row in rows for ref in row.refs if ref.kind == "node"}
+        gone: set[int] = set()
+        while True:  # from the highest order down
+            more = {
+                n
+                for n, (_, order) in enumerate(self.all)
+                if order and n not in used | gone and self.derivative[n] in {-1} | gone
+            }
+            if not more:
+                break
+            gone |= more
+        if not gone:
+            return list(rows)
+        kept = [n for n in range(len(self.all)) if n not in gone]
+        new = {n: k for k, n in enumerate(kept)}
+        self.all = [self.all[n] for n in kept]
+        self.derivative = [new.get(self.derivative[n], -1) for n in kept]
+        return [
+            replace(row, refs=tuple(r._replace(number=new[r.number]) if r.kind == "node" else r for r in row.refs))
+            for row in rows
+        ]
 
     def ref(self, atom: Atom, text: str) -> Ref:
         """Return what an atom of the flat system stands for."""

@@ -44,7 +44,7 @@ class StateSets:
         columns = list(range(len(self.columns)))
         for level in range(max(self.levels, default=0)):
             rows = [i for i, times in enumerate(self.levels) if times > level]
-            columns = [columns[k] for k in _pivots(matrix[np.ix_(rows, columns)])[0][: len(rows)]]
+            columns = [columns[k] for k in pivots(matrix[np.ix_(rows, columns)])[0][: len(rows)]]
             dummies |= {self.chains[k][level] for k in columns}
             columns = [k for k in columns if len(self.chains[k]) > level + 1]
         return frozenset(dummies)
@@ -59,8 +59,8 @@ class StateSets:
                 k for k, chain in enumerate(self.chains) if len(chain) > level and chain[level] in dummies
             ]
             able = [k for k, chain in enumerate(self.chains) if len(chain) > level]
-            best = float(np.prod(_pivots(matrix[np.ix_(rows, able)])[1][: len(rows)]))
-            own = float(np.prod(_pivots(matrix[np.ix_(rows, mine)])[1])) if len(mine) == len(rows) else 0.0
+            best = float(np.prod(pivots(matrix[np.ix_(rows, able)])[1][: len(rows)]))
+            own = float(np.prod(pivots(matrix[np.ix_(rows, mine)])[1])) if len(mine) == len(rows) else 0.0
             least = min(least, own / best if best > 0.0 else 0.0)
         return least
 
@@ -73,7 +73,7 @@ class StateSets:
         return np.asarray(matrix / np.where(size > 0.0, size, 1.0))
 
 
-def _pivots(matrix: FloatArray) -> tuple[list[int], FloatArray]:
+def pivots(matrix: FloatArray) -> tuple[list[int], FloatArray]:
     """Return the columns in the order of QR with column pivoting, and the diagonal of R."""
     rest = matrix.copy()
     order: list[int] = []
