@@ -25,6 +25,7 @@ RootCallback = Callable[[float, FloatArray, FloatArray, FloatArray], None]
 Progress = Callable[[float], None]
 
 PROGRESS_INTERVAL = 0.1  # s of wall time between reports
+WATCHED = 20  # Jacobians from one look at the tolerances to the next
 STALLED = 4e15  # leading coefficient of BDF times t, about |t| / h: from here on a step is lost in rounding
 BLAS_UP_TO = 1000  # elements
 TINY = 1e-300  # stands for a relation that is exactly zero: far below any other value, far above underflow
@@ -48,13 +49,16 @@ class Monitor:
     Attributes
     ----------
     t, h : time that the last step tried to reach and length of the last new step, s.
-    halted : why the run is to stop: "", "max_steps", "stalled" (t + h == t) or "interrupted".
+    halted : why the run is to stop: "", "max_steps", "stalled" (t + h == t), "interrupted", or "tolerances", if it is
+        to go on with others.
+    watch : called now and then; True asks for a stop because of tolerances.
     offence : the first trial state of the latest series of non-finite residuals.
     jacobian_offence : time and index (into the pattern) of the latest non-finite entry of the Jacobian.
     """
 
     max_steps: int
     progress: Progress | None = None
+    watch: Callable[[], bool] | None = None
     steps: int = 0
     rejected: int = 0
     residuals: int = 0
@@ -160,9 +164,11 @@ def jacobian_callback(
         monitor.jacobians += 1
         if cj * abs(t) > STALLED:
             monitor.halted = "stalled"
-        ev_cj[0] = cj
         try:
             write(t, y, yp)
+            if monitor.watch is not None and monitor.jacobians % WATCHED == 0 and monitor.watch():
+                monitor.halted = "tolerances"
+            ev_cj[0] = cj
             value = kernel()
         except KeyboardInterrupt:
             monitor.halted = "interrupted"

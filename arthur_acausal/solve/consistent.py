@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from arthur_acausal.solve.newton import Index, Matrix, Solve, Solved, SparseMatrix, newton
+from arthur_acausal.solve.newton import Index, Matrix, Solve, Solved, SparseMatrix, factorise, newton
 from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator, FloatArray, Pattern
 
 DENSE_UP_TO = 200
+SIGNS = 4  # choices of signs from which a spread is estimated
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,9 +45,10 @@ class ConsistentSystem:
     def __init__(
         self, dae: DAE, evaluator: Evaluator, attributes: Attributes, free: Index, conditions: Index
     ) -> None:
-        self._evaluator = evaluator
+        self._evaluator, self._pattern = evaluator, dae.sparsity
         self.free, self.states = free, np.flatnonzero(dae.differential)
         self.conditions = conditions
+        self._signs = np.random.default_rng(0).choice([-1.0, 1.0], (SIGNS, self.states.size))
         self.size = free.size + self.states.size
         self._n, self._with_initial = dae.n, bool(dae.n_init) and conditions.size > 0
         self.nominal = np.abs(attributes.nominal)
@@ -122,6 +124,26 @@ class ConsistentSystem:
             solved = newton(self, solved.w, scale, -unbounded, unbounded, tolerance, most)
         self.write(solved.w)
         return solved
+
+    def spread(self, tolerance: FloatArray) -> FloatArray:
+        """How far y[free] moves when each state is off by its tolerance, (n,): zero for all other unknowns.
+
+        The root mean square over a few choices of signs, at the values that the evaluator holds.
+        """
+        evaluator, pattern = self._evaluator, self._pattern
+        solve, singular = factorise(self.matrix(), np.maximum(np.abs(self.unknowns()), self.scale()))
+        spread = np.zeros(self._n)
+        if singular:
+            return spread
+        slope, row = evaluator.jacobian_y(), np.asarray(pattern.row)
+        total = np.zeros(self.free.size)
+        for signs in self._signs:
+            change = np.zeros(self._n)
+            change[self.states] = signs * tolerance[self.states]
+            entries = slope * np.repeat(change, np.diff(pattern.colind))
+            total += solve(np.bincount(row, weights=entries, minlength=self._n))[: self.free.size] ** 2
+        spread[self.free] = np.nan_to_num(np.sqrt(total / SIGNS), nan=0.0, posinf=0.0)
+        return spread
 
     def rates(self, solve: Solve, ahead: float, now: FloatArray) -> FloatArray:
         """Derivatives of the unknowns, by a forward difference of F along the solution over `ahead` seconds.

@@ -24,6 +24,7 @@ from arthur_acausal.solve.protocol import DAE, FloatArray
 from arthur_acausal.solve.sampled import Samples
 from arthur_acausal.solve.schedule import Schedule, affine_relations
 from arthur_acausal.solve.statistics import Statistics
+from arthur_acausal.solve.tolerance import Tolerances
 from arthur_acausal.solve.trajectory import Event, Recorder, Status, Trajectory
 
 # Events closer together than this, relative to time and step, are one. IDA finds a root to within 100 units of
@@ -111,12 +112,20 @@ class HybridRun:
 
     def _prepare(self) -> None:
         dae, options = self._dae, self._options
-        self._atol = options.absolute_tolerances(list(dae.y_paths), self._attributes.nominal)
+        self._tolerances = Tolerances(dae, self._evaluator, self._attributes, options)
+        self._monitor.watch = self._tolerances.widen if self._tolerances.adaptive else None
         max_step = options.max_step or 0.0
         if not dae.n and not max_step:  # nothing else would make IDA look for events often enough
             max_step = float(self._grid[1] - self._grid[0])
         self._engine = Ida(
-            dae, self._evaluator, self._inputs, self._roots, self._monitor, self._atol, options, max_step
+            dae,
+            self._evaluator,
+            self._inputs,
+            self._roots,
+            self._monitor,
+            self._tolerances.atol,
+            options,
+            max_step,
         )
         self._statistics.linear_solver = self._engine.linear_solver
 
@@ -163,19 +172,25 @@ class HybridRun:
             self._engine.forget()
             if self._starts and not self._affected:
                 self._iteration.make_consistent()
+            self._adapt_tolerances()
             first_step = self._first_step(stop - float(times[0]))
             self._starts += 1
         y, yp = self._evaluator.y.copy(), self._evaluator.yp.copy()
         return method(times, y, yp, first_step, store_steps)
+
+    def _adapt_tolerances(self) -> None:
+        """Those of this start; after a halt because of them they are set already."""
+        if self._monitor.halted == "tolerances" or (self._tolerances.adaptive and self._tolerances.adapt()):
+            self._engine.set_tolerances(self._tolerances.atol)
 
     def _first_step(self, duration: float) -> float | None:
         """A first step whose error, h^2 |y''| / 2, is a part of what the tolerance allows."""
         second = self._iteration.rates(self._inputs.refresh, duration)
         if self._options.first_step is not None or second is None:
             return self._options.first_step
-        weighted = second / (self._options.rtol * np.abs(self._evaluator.y) + self._atol)
+        weighted = second / (self._options.rtol * np.abs(self._evaluator.y) + self._tolerances.atol)
         size = float(np.sqrt(np.mean(weighted**2))) if second.size else 0.0
-        longest = FIRST_STEP_PART * duration
+        longest = FIRST_STEP_PART * (self._monitor.h if self._monitor.halted else duration)  # halted: goes on
         step = min(longest, (2.0 * FIRST_STEP_ERROR / size) ** 0.5) if size > 0.0 else longest
         return max(step, FIRST_STEP_LEAST * abs(self._t))
 
@@ -227,9 +242,13 @@ class HybridRun:
         """Raise what ended the stretch early; t, y, yp are the last good values."""
         if stretch.end not in ("failed", "halted"):
             return
+        if self._monitor.halted == "tolerances":
+            self._engine.forget()
+            self._affected = False  # the values are interpolated: they are made consistent at the start
+            return
         if self._monitor.halted == "interrupted":
             raise KeyboardInterrupt
-        told = suspect(self._dae, self._evaluator, t, y, yp, self._options.rtol, self._atol)
+        told = suspect(self._dae, self._evaluator, t, y, yp, self._options.rtol, self._tolerances.atol)
         if self._monitor.halted == "max_steps" or stretch.flag == -1:
             raise too_many_steps(self._monitor, self._options, told)
         raise integration_failure(self._dae, self._evaluator, self._monitor, stretch, t, told)

@@ -178,6 +178,11 @@ class Ida:
                 if self._native is not None:
                     self._native.end()
 
+    def set_tolerances(self, atol: FloatArray) -> None:
+        """Integrate with other absolute tolerances from the next start on."""
+        self._settings["atol"] = atol
+        self._engines.clear()
+
     def forget(self) -> None:
         """The next `step_through` is to start anew."""
         self._stepping = None

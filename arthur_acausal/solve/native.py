@@ -23,7 +23,7 @@ import numpy as np
 
 from arthur_acausal.codegen.cache import default_cache, make_key
 from arthur_acausal.codegen.kernel import Kernel, compiler
-from arthur_acausal.solve.callbacks import Monitor, Roots, dense_places
+from arthur_acausal.solve.callbacks import WATCHED, Monitor, Roots, dense_places
 from arthur_acausal.solve.protocol import DAE, Evaluator
 
 LOGGER = logging.getLogger("arthur_acausal")
@@ -36,7 +36,7 @@ FIELDS = (
     "jacobians",
     "roots",
 )  # of a Monitor, in the order of Counts
-HALTED = ("", "max_steps", "stalled", "interrupted")
+HALTED = ("", "max_steps", "stalled", "interrupted", "tolerances")
 RESIDUAL, JACOBIAN, ROOTS = range(3)
 
 
@@ -89,7 +89,7 @@ class Native:
         residual = self._bind(RESIDUAL, evaluator.residual, self._refuse)
         jacobian = self._bind(JACOBIAN, evaluator.jacobian, self._bad_jacobian, place)
         self.residual = lambda t, y, yp, out: residual(t, y, yp, out)
-        self.jacobian = lambda t, y, yp, res, cj, out: jacobian(t, y, yp, res, cj, out)
+        self.jacobian = lambda t, y, yp, res, cj, out: self._watched(jacobian(t, y, yp, res, cj, out))
         self.roots: Callable[..., None] | None = None
         if roots.index.size:
             watched = self._bind(ROOTS, evaluator.roots, roots.differs, roots.index.astype(np.int64))
@@ -127,6 +127,12 @@ class Native:
         """Whether the residual is refused; see `Monitor.refuse`."""
         self._monitor.residuals = int(self._counts[FIELDS.index("residuals")])
         return self._monitor.refuse(self._evaluator, self._evaluator.residual())
+
+    def _watched(self, _: None) -> None:
+        """Look at the tolerances now and then; see `Monitor.watch`."""
+        watch, number = self._monitor.watch, self._counts[FIELDS.index("jacobians")]
+        if watch is not None and number % WATCHED == 0 and watch():
+            self._counts[len(FIELDS)] = HALTED.index("tolerances")
 
     def _bad_jacobian(self) -> None:
         bad = np.flatnonzero(~np.isfinite(self._evaluator.jacobian()))

@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from arthur_acausal.errors import UsageError, nearest
-from arthur_acausal.solve.protocol import FloatArray
+from arthur_acausal.solve.protocol import BoolArray, FloatArray
 
 ATOL_OVER_RTOL = 0.01  # default absolute tolerance of a variable, in units of rtol times its nominal value
 
@@ -120,6 +120,12 @@ class SolverOptions:
                     )
                 atol[where[path]] = value
         return atol
+
+    def given_tolerances(self, paths: list[str]) -> BoolArray:
+        """Which of these unknowns have an absolute tolerance of their own."""
+        if isinstance(self.atol, float | int):
+            return np.ones(len(paths), dtype=bool)
+        return np.array([path in (self.atol or {}) for path in paths], dtype=bool)
 
 
 def _number(name: str, value: object) -> float:

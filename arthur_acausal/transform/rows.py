@@ -119,7 +119,9 @@ class Nodes:
         self.all = [self.all[n] for n in kept]
         self.derivative = [new.get(self.derivative[n], -1) for n in kept]
         return [
-            replace(row, refs=tuple(r._replace(number=new[r.number]) if r.kind == "node" else r for r in row.refs))
+            replace(
+                row, refs=tuple(r._replace(number=new[r.number]) if r.kind == "node" else r for r in row.refs)
+            )
             for row in rows
         ]
 
