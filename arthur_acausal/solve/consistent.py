@@ -141,7 +141,8 @@ class ConsistentSystem:
             change = np.zeros(self._n)
             change[self.states] = signs * tolerance[self.states]
             entries = slope * np.repeat(change, np.diff(pattern.colind))
-            total += solve(np.bincount(row, weights=entries, minlength=self._n))[: self.free.size] ** 2
+            off = np.bincount(row, weights=entries, minlength=self.size).astype(np.float64)
+            total += solve(off)[: self.free.size] ** 2
         spread[self.free] = np.nan_to_num(np.sqrt(total / SIGNS), nan=0.0, posinf=0.0)
         return spread
 

@@ -3,7 +3,7 @@
 Two node equations ``C (u1' - u2') = ...`` and ``C (u2' - u1') = ...`` hold a third one without derivatives; so do the
 node equations at both ends of resistors that join two inductors. Pantelides' algorithm sees only which unknowns stand
 where, and takes such equations for independent. Here one of them is replaced by the combination in which the highest
-derivatives cancel (linear combination method: Tan, Nedialkov and Pryce, 2017, Numerical Algorithms 76, 991-1020).
+derivatives cancel (linear combination method: Tan, Nedialkov and Pryce, 2017, BIT Numer. Math. 57, 845-865).
 
 Only what cancels for all values of the parameters counts: coefficients are compared with random numbers for the
 parameters, and the combination is made of the symbols. What is singular for some values only is told at the start of
@@ -51,26 +51,36 @@ def combine_dependent(
 
     replaced: dict[int, Row] = {}
     for factors in Echelon(blocks, assignment, numbers).dependent():
-        first = next(iter(factors))
-        others = sorted(i for i in factors if i != first)
-        target = min([first, *others], key=lambda i: depth[i])
-        chosen = [target, *(i for i in [first, *others] if i != target)]
-        if target != first and replaced:
+        twice, *others = (
+            factors  # the least differentiated row gives way, of several the one that is said twice
+        )
+        target = min([twice, *sorted(others)], key=lambda i: depth[i])
+        if target != twice and replaced:
             continue  # two combinations must not take the place of one row: the next round finds it again
+        chosen = [target, *(i for i in sorted(factors) if i != target)]
+        times = [depth[i] - depth[target] for i in chosen]
+        raised = [_raised(rows[i], k, nodes, evaluator) for i, k in zip(chosen, times, strict=True)]
+        gone = {
+            Ref("node", _risen(n, k, nodes)) for i, k in zip(chosen, times, strict=True) for n in leading[i]
+        }
         columns = [{top[n]: c for n, c in leading[i].items()} for i in chosen]
-        raised, gone = [], {}
-        for i in chosen:
-            row, unknowns = rows[i], set(leading[i])
-            for _ in range(depth[i] - depth[target]):
-                row = differentiated(row, nodes, evaluator)
-                unknowns = {nodes.derivative_of(n) for n in unknowns}
-            raised.append(row)
-            gone |= {Ref("node", n): None for n in unknowns}
         factor = _factors([rows[i] for i in chosen], columns, [numbers(i) or {} for i in chosen], evaluator)
         replaced[target] = combination(raised, factor, gone, nodes, evaluator)
-        if target != first:
+        if target != twice:
             break
     return replaced
+
+
+def _raised(row: Row, times: int, nodes: Nodes, evaluator: Evaluator) -> Row:
+    for _ in range(times):
+        row = differentiated(row, nodes, evaluator)
+    return row
+
+
+def _risen(node: int, times: int, nodes: Nodes) -> int:
+    for _ in range(times):
+        node = nodes.derivative_of(node)
+    return node
 
 
 def _tops(derivative: Sequence[int]) -> tuple[list[int], list[int]]:
@@ -126,7 +136,8 @@ def _factors(
         for i, entries in enumerate(columns):
             for column, c in entries.items():
                 if places[column] in chosen:
-                    matrix[i, places[column]] = evaluator(rows[i], look, c) if isinstance(c, SX) else c
+                    value = evaluator(rows[i], look, c) if isinstance(c, SX) else SX(float(c or 0.0))
+                    matrix[i, places[column]] = value
         square = matrix[:, sorted(chosen)]
         return [SX(1.0), *ca.vertsplit(ca.solve(square[1:, :].T, -square[0, :].T))]
 

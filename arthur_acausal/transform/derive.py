@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import casadi as ca
 from casadi import SX
@@ -72,7 +72,7 @@ def differentiated(row: Row, nodes: Nodes, evaluator: Evaluator) -> Row:
 def combination(
     rows: Sequence[Row],
     factors: Callable[[Lookup], Sequence[SX]],
-    without: Mapping[Ref, object],
+    without: Collection[Ref],
     nodes: Nodes,
     evaluator: Evaluator,
 ) -> Row:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from casadi import SX
 
@@ -97,9 +97,10 @@ def reduce_index(
     weight = [(q.nominal or 1.0) * _GLADLY[q.state_select] for q in quantities]
     sets = state_sets(rows, nodes, nodes.derivative, result.equation_derivative, weight)
     texts = [rows[e].text for e, successor in enumerate(result.equation_derivative) if successor >= 0]
-    return ReducedSystem(
-        rows, edges, dummies, texts, 1 + _depth(result.equation_derivative), *(sets or (None, [])), combined
+    reduced = ReducedSystem(
+        rows, edges, dummies, texts, 1 + _depth(result.equation_derivative), combined=combined
     )
+    return reduced if sets is None else replace(reduced, sets=sets[0], entries=sets[1])
 
 
 def _firm(edges: dict[int, Coefficient]) -> list[int]:

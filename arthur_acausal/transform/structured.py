@@ -63,7 +63,7 @@ def transform(flat: FlatSystem, dummies: frozenset[int] | None = None) -> Struct
 def report(dae: StructuredDAE) -> StructureReport:
     """Return the structural report."""
     flat, causal, name = dae.flat, dae.causal, dae.nodes.name
-    messages = []
+    messages = [f"an equation gave way to a {text}" for text in dae.reduced.combined]
     if dae.reduced.differentiated:
         messages.append(
             f"{len(dae.reduced.differentiated)} equations were differentiated (index {dae.reduced.index})"
