@@ -162,7 +162,7 @@ class Stretch:
         n = self.n
         none, all_of = np.full(n, -np.inf), np.ones(n, dtype=bool)
         fixed: BoolArray = self.differential
-        return Attributes(self._start, fixed, all_of, self._nominal, none, -none, np.zeros(0))
+        return Attributes(self._start, fixed, all_of, self._nominal, none, -none, np.zeros(0), [""] * n)
 
     def evaluator(self) -> StretchEvaluator:
         """Return kernels with buffers of their own."""

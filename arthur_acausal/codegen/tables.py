@@ -96,7 +96,7 @@ class Attributes:
     min: FloatArray
     max: FloatArray
     z_start: FloatArray
-    origin: Sequence[str] = ()
+    origin: Sequence[str]
 
 
 @dataclass(frozen=True, slots=True)
