@@ -152,3 +152,71 @@ def merge(
     from arthur_acausal.cli.sweep import merge as carry_out
 
     typer.echo(carry_out(folders, output))
+
+
+Folder = Annotated[Path, typer.Argument(metavar="DIR", help="A sweep's directory.")]
+
+
+@app.command("sweep-plot")
+@reported
+def sweep_plot(
+    folder: Folder,
+    kind: Annotated[
+        str, typer.Option("--kind", metavar="KIND", help="curves, heat, parallel, matrix or fan.")
+    ] = "curves",
+    x: Annotated[str | None, typer.Option("--x", metavar="COLUMN", help="Default: the first factor.")] = None,
+    y: Annotated[
+        str | None, typer.Option("--y", metavar="COLUMN", help="Default: the first reduction.")
+    ] = None,
+    by: Annotated[
+        str | None, typer.Option("--by", metavar="COLUMN", help="Default: the second factor.")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE.png", help="Default: DIR with .png.")
+    ] = None,
+    debug: Debug = False,
+) -> None:
+    """Draw a sweep: curves, heat map, parallel coordinates, scatter matrix, or trajectories as a fan."""
+    from arthur_acausal.cli.looking import plot
+
+    typer.echo(plot(folder, kind, x, y, by, output or Path(f"{folder}.png")))
+
+
+@app.command()
+@reported
+def report(
+    folder: Folder,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE.html", help="Default: DIR with .html.")
+    ] = None,
+    debug: Debug = False,
+) -> None:
+    """Write one interactive page about a sweep."""
+    from arthur_acausal.cli.looking import report as carry_out
+
+    typer.echo(carry_out(folder, output or Path(f"{folder}.html")))
+
+
+@app.command()
+@reported
+def compare(first: Folder, second: Folder, as_json: Json = False, debug: Debug = False) -> None:
+    """Compare two sweeps run by run."""
+    from arthur_acausal.cli.looking import compare as carry_out
+
+    typer.echo(carry_out(first, second, as_json))
+
+
+@app.command()
+@reported
+def importance(
+    folder: Folder,
+    of: Annotated[
+        str | None, typer.Option("--of", metavar="REDUCTION", help="Default: the first one.")
+    ] = None,
+    as_json: Json = False,
+    debug: Debug = False,
+) -> None:
+    """Say which factor causes how much of a result's variance (Sobol indices; method saltelli)."""
+    from arthur_acausal.cli.looking import importance as carry_out
+
+    typer.echo(carry_out(folder, of, as_json))

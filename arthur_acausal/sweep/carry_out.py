@@ -15,7 +15,7 @@ from arthur_acausal.sweep.design import Run
 from arthur_acausal.sweep.execute import COUNTS, Outcome
 from arthur_acausal.sweep.lock import Lock
 from arthur_acausal.sweep.plan import Plan
-from arthur_acausal.sweep.specification import RANDOM, differences
+from arthur_acausal.sweep.specification import differences
 from arthur_acausal.sweep.store import Row, Store
 from arthur_acausal.sweep.task import Task
 
@@ -171,7 +171,7 @@ def _opened(plan: Plan, folder: Path, how: How) -> Store:
         )
     store = Store.existing(folder)
     now, then = plan.specification.to_object(), dict(store.about["specification"])
-    more = plan.specification.method in RANDOM and plan.specification.method != "lhs"
+    more = plan.specification.method in ("random", "sobol")
     if more and (now["samples"] or 0) > (then.get("samples") or 0):
         then["samples"] = now["samples"]  # further samples leave the earlier ones as they are
     if found := differences(then, now):
@@ -194,6 +194,8 @@ def about(plan: Plan) -> dict[str, Any]:
     _, columns = plan.task(plan.runs[0])
     infos = prepared.translation.dae.parameters
     units = {p: infos.infos[infos.find(p)].unit for p in columns if p in infos.number or p in infos.alias}
+    own = [r for r in job.reductions if r.kind != "function"]
+    units |= {r.name: r.unit(recovery.units[recovery.find(r.path)]) for r in own}
     return {
         "format": 1,
         "specification": plan.specification.to_object(),

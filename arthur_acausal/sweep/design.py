@@ -79,7 +79,12 @@ def _together(names: Sequence[str], factors: Mapping[str, Factor]) -> Iterator[d
 
 def _samples(specification: Specification, factors: Mapping[str, Factor]) -> Iterator[dict[str, Value]]:
     assert specification.samples is not None  # the schema asks for it
-    points = unit_samples(specification.method, len(factors), specification.samples, specification.seed)
+    method, count, seed = specification.method, specification.samples, specification.seed
+    points = (
+        saltelli(len(factors), count, seed)
+        if method == "saltelli"
+        else unit_samples(method, len(factors), count, seed)
+    )
     columns = [factor.at(points[:, k]) for k, factor in enumerate(factors.values())]
     for row in zip(*columns, strict=True):
         yield dict(zip(factors, row, strict=True))
@@ -101,3 +106,19 @@ def unit_samples(method: str, dimensions: int, count: int, seed: int) -> NDArray
     sampler = qmc.Sobol(dimensions, scramble=True, rng=np.random.default_rng(seed))
     power = math.ceil(math.log2(count)) if count > 1 else 0
     return np.asarray(sampler.random_base2(power)[:count])
+
+
+def saltelli(dimensions: int, count: int, seed: int) -> NDArray[np.float64]:
+    """Return the points (count (dimensions + 2), dimensions) of Sobol indices: A, B, and A with each column of B."""
+    if count & (count - 1):
+        raise UsageError(
+            f"saltelli with {count} samples", remedy="a power of two: Sobol points are balanced only then"
+        )
+    both = unit_samples("sobol", 2 * dimensions, count, seed)
+    a, b = both[:, :dimensions], both[:, dimensions:]
+    mixed = []
+    for k in range(dimensions):
+        one = a.copy()
+        one[:, k] = b[:, k]
+        mixed.append(one)
+    return np.vstack([a, b, *mixed])

@@ -65,6 +65,14 @@ class Reduction:
     argument: float = math.nan
     relation: str = ""
 
+    def unit(self, of_variable: str) -> str:
+        """Return the unit of the column."""
+        if self.kind == "first":
+            return "s"
+        if self.kind == "integral":
+            return "s" if of_variable == "1" else f"{of_variable}*s"
+        return of_variable
+
     def of(self, solution: Solution) -> Mapping[str, float]:
         """Return the column's value; a function may give several columns."""
         if self.kind == "function":

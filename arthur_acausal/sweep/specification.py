@@ -13,8 +13,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from arthur_acausal.errors import UsageError, nearest
 from arthur_acausal.units import to_si
 
-Method = Literal["grid", "zip", "random", "lhs", "sobol"]
-RANDOM: tuple[Method, ...] = ("random", "lhs", "sobol")
+Method = Literal["grid", "zip", "random", "lhs", "sobol", "saltelli"]
+RANDOM: tuple[Method, ...] = ("random", "lhs", "sobol", "saltelli")
 Given = float | str | bool
 Seconds = Annotated[float, Field(gt=0.0)]
 
@@ -57,7 +57,8 @@ class Specification(_Section):
     stop_time, start_time : s.
     tolerance : relative, of the integration.
     method : "grid" combines the values of all factors; "zip" takes the first of each, the second of each ...;
-        "random", "lhs" (Latin hypercube) and "sobol" draw ``samples`` from the factors' ranges.
+        "random", "lhs" (Latin hypercube) and "sobol" draw ``samples`` from the factors' ranges; "saltelli" makes
+        the ``samples`` times (factors + 2) runs that Sobol indices need, see `importance`.
     vary : path -> factor, see `parse_factor`.
     zip : groups of paths that take their values together within a grid.
     derive : path -> expression over other paths, in SI.

@@ -74,7 +74,13 @@ def test_results_are_those_of_the_closed_form(tmp_path: Path) -> None:
     exact = x0.to_numpy()[:, None] * np.exp(-result.dataset.time.to_numpy() / tau.to_numpy()[:, None])
     np.testing.assert_allclose(x, exact, rtol=1e-4)
     assert result.factors == ["tau", "x0"]
-    assert result.about["units"] == {"tau": "s", "x0": "1"}
+    assert result.about["units"] == {
+        "tau": "s",
+        "x0": "1",
+        "final(x)": "1",
+        "integral(x)": "s",
+        "first(x < 0.5)": "s",
+    }
 
 
 def test_files_are_readable_by_common_tools(tmp_path: Path) -> None:
