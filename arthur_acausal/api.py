@@ -73,6 +73,7 @@ class Translation:
         SimulationError : the run stopped early; its ``solution`` holds what was computed.
         InitializationError, ParameterError, UsageError : before the first step.
         """
+        from arthur_acausal.result.power import Powers
         from arthur_acausal.result.simulated import run
 
         chosen = _options(options, tolerance)
@@ -83,7 +84,7 @@ class Translation:
             begin = steady_state(
                 self.dae, time=start_time, parameters=parameters, inputs=inputs, start=start, options=chosen
             ).begin()
-        return run(
+        solution = run(
             self.dae,
             self.model,
             stop_time=stop_time,
@@ -96,6 +97,8 @@ class Translation:
             variant=self._variant,
             begin=begin,
         )
+        solution.powers = Powers(self.flat, self.structured)
+        return solution
 
     def _variant(self, dummies: frozenset[int], continuation: bool) -> CompiledDAE:
         """Return the system compiled for another set of dummy derivatives, to start or continue a run; made once."""

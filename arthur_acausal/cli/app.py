@@ -138,6 +138,9 @@ def simulate(
     verify: Annotated[
         bool, typer.Option("--verify", help="Check the result against every raw equation.")
     ] = False,
+    power: Annotated[
+        bool, typer.Option("--power", help="Add the energy that enters each part by its connectors.")
+    ] = False,
     as_json: Json = False,
     debug: Debug = False,
 ) -> None:
@@ -159,6 +162,7 @@ def simulate(
             output=output,
             picture=picture,
             verify=verify,
+            power=power,
             steady=steady,
             as_json=as_json,
         )

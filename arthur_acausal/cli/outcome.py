@@ -12,6 +12,7 @@ from arthur_acausal.result.run import plain
 
 if TYPE_CHECKING:
     from arthur_acausal.result.energy import Energy
+    from arthur_acausal.result.power import PowerBalance
     from arthur_acausal.result.solution import Solution
     from arthur_acausal.result.verify import Verification
 
@@ -126,6 +127,30 @@ def verification(found: Verification) -> str:
     rows = [[f"{item.scaled:.1e}", f"at {item.time:.4g} s", item.equation] for item in found.worst[:WORST]]
     title = f"verification: {count(found.equations, 'raw equation')}, residuals relative to their terms"
     return f"{title}\n{table(rows, 'rlw')}"
+
+
+def balances(solution: Solution) -> dict[str, PowerBalance]:
+    """The power balance of each of the model's own parts that has connectors with a power."""
+    assert solution.powers is not None
+    found = {path: solution.power_balance(path) for path in solution.powers.parts()}
+    return {path: balance for path, balance in found.items() if balance.powers}
+
+
+def powers(solution: Solution) -> str:
+    """The energy [J] that enters each part by its connectors, and by all together; those of an array are summed."""
+    rows = [["", "J"]]
+    found = balances(solution)
+    for name, members in alike(found.items()):
+        ports: dict[str, float] = {}
+        for balance in members:
+            for path, amount in balance.energies.items():
+                port = path.rpartition(".")[2]
+                ports[port] = ports.get(port, 0.0) + amount
+        rows.append([name, f"{sum(ports.values()):.3f}"])
+        rows += [[f"  {port}", f"{amount:.3f}"] for port, amount in ports.items()]
+    together = round(sum(b.energy for b in found.values()), 3) + 0.0  # no minus before a zero
+    rows.append(["all together", f"{together:.3f}"])
+    return "energy into each part by its connectors\n" + table(rows, "lr")
 
 
 def audited(terms: Any) -> Iterator[str]:

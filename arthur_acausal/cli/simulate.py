@@ -42,6 +42,7 @@ class Request:
     output: Path | None = None
     picture: Path | None = None
     verify: bool = False
+    power: bool = False
     steady: bool = False
     as_json: bool = False
 
@@ -178,10 +179,14 @@ def told(request: Request, translation: Translation, solution: Solution, written
         extras: dict[str, Any] = {"translation_s": translation_s}
         if verified is not None:
             extras["verify"] = {"worst": verified.largest, "path": verified.path}
+        if request.power:
+            extras["power"] = {path: balance.energies for path, balance in outcome.balances(solution).items()}
         return json.dumps(outcome.as_object(solution, extras), ensure_ascii=False)
     sections = [outcome.as_text(solution, translation_s)]
     if verified is not None:
         sections.append(outcome.verification(verified))
+    if request.power:
+        sections.append(outcome.powers(solution))
     if written:
         sections.append("\n".join(f"wrote {line}" for line in written))
     return "\n\n".join(sections)

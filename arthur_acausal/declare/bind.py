@@ -7,7 +7,7 @@ from typing import Any
 from casadi import SX
 
 from arthur_acausal.declare.authored import authored
-from arthur_acausal.declare.model import MISSING, Binding, Component, Model, Record
+from arthur_acausal.declare.model import MISSING, Binding, Component, Model, Record, constraint
 from arthur_acausal.declare.modify import declared, settle
 from arthur_acausal.declare.scope import Scope, using
 from arthur_acausal.errors import DeclarationError
@@ -60,6 +60,8 @@ def bind(template: Model, name: str, scope: Scope, owner: Model | None) -> Model
         bound.__dict__[part] = _bind_part(
             bound, part, given, owner if part in bound._modifications else bound
         )
+        if part in bound._modifications:
+            _check_constraint(bound, part)
     if isinstance(bound, Component):
         with authored("build()", path or type(bound).__name__, bound._where):
             bound.build()
@@ -145,6 +147,21 @@ def _unbound(record: Record) -> Record:
         (n for n, q in record._declarations.quantities.items() if q.kind == "parameter"), SX(0.0)
     ) | {n: v for n, v in record._modifications.items() if n in record._declarations.structural}
     return copy
+
+
+def _check_constraint(bound: Model, part: str) -> None:
+    """Raise DeclarationError where the caller's part is not of the class that the annotation says."""
+    wanted = constraint(type(bound), part)
+    given = bound.__dict__[part]
+    if wanted and not isinstance(given, wanted):
+        names = " or ".join(kind.__name__ for kind in wanted)
+        raise DeclarationError(
+            f"{type(bound).__name__}.{part} must be a {names}, which {type(given).__name__} is not",
+            path=bound._binding.path if bound._binding else "",
+            where=bound._where,
+            cause=f"the annotation in {type(bound).__name__}, {part}: {names}, is what any replacement must be",
+            remedy=f"give a subclass of {names}, or annotate the part with a base class of both",
+        )
 
 
 def _check_structural(bound: Model, path: str) -> None:

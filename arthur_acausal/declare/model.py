@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypeAlias, dataclass_transform
@@ -84,6 +85,22 @@ def _collect(cls: type) -> Declarations:
         slot[name] = counts[quantity.space]
         counts[quantity.space] += 1
     return Declarations(quantities, parts, structural, frozenset(fixed), slot)
+
+
+def constraint(cls: type, name: str) -> tuple[type, ...]:
+    """Return the classes that the annotation of a part names; none where they cannot be found by their names."""
+    for base in cls.__mro__:
+        annotation = inspect.get_annotations(base).get(name)
+        if annotation is None:
+            continue
+        if isinstance(annotation, type):
+            return (annotation,)
+        known = vars(sys.modules[base.__module__])
+        found = [known.get(text.strip()) for text in str(annotation).strip("\"'").split("|")]
+        return (
+            tuple(k for k in found if isinstance(k, type)) if all(isinstance(k, type) for k in found) else ()
+        )
+    return ()
 
 
 class Model:
@@ -187,6 +204,10 @@ class Connector(Model):
     """
 
     medium: ClassVar[type[Record] | None] = None
+
+    def power(self) -> SX | None:
+        """Return the power [W] that enters the component here: of its quantities, and their `der`; None: not said."""
+        return None
 
 
 @dataclass_transform(kw_only_default=True, eq_default=False, field_specifiers=(parameter,))

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from arthur_acausal.result.chain import Piece
     from arthur_acausal.result.energy import Energy
     from arthur_acausal.result.panel import Wanted
+    from arthur_acausal.result.power import PowerBalance, Powers
 
 
 AT_ONCE = 4_000_000  # values that may be computed beside those that are asked for: 32 MB
@@ -74,6 +75,7 @@ class Solution:
         self._columns: dict[str, FloatArray] = {}
         self.run = run if run is not None else Run()
         self.t: FloatArray = values.t
+        self.powers: Powers | None = None
 
     # --- what there is
 
@@ -264,6 +266,22 @@ class Solution:
         from arthur_acausal.result.plot import plot
 
         return plot(self, wanted, file)
+
+    def power(self, path: str) -> FloatArray:
+        """Power (nt,) [W] that enters a component by its connector ``path``: "valve.port_a", for instance."""
+        return self._powers().power(path, self.t, self.__getitem__)
+
+    def power_balance(self, component: str = "") -> PowerBalance:
+        """The powers that enter a component by all of its connectors; their sum is what it stores or turns to heat."""
+        return self._powers().balance(component, self.t, self.__getitem__)
+
+    def _powers(self) -> Powers:
+        if self.powers is None:
+            raise ResultError(
+                "this solution does not know its model's connectors: it was read from a file",
+                remedy="simulate the model anew",
+            )
+        return self.powers
 
     def energy(self) -> Energy:
         """The model's energy audit. Raises ResultError where the model has none."""

@@ -14,6 +14,10 @@ class Pin(Connector):
     v: Real = potential("V")
     i: Real = flow("A")
 
+    def power(self) -> SX:
+        """Return v i [W]: of all pins of a component together, the electrical power that it takes."""
+        return self.v * self.i
+
 
 class TwoPin(Component):
     """What elements with two pins share: voltage ``v`` [V] from pin_p to pin_n, current ``i`` [A] the same way.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from casadi import SX
+
 from arthur_acausal import Connector, Real, flow, potential
 from arthur_acausal.components.hydraulic.fluid import Fluid
 
@@ -17,3 +19,7 @@ class HydraulicPort(Connector):
     medium = Fluid
     p: Real = potential("Pa", nominal=1e7, display="bar")
     q: Real = flow("m^3/s", nominal=1e-4, display="L/min")
+
+    def power(self) -> SX:
+        """Return p q [W], the work that the fluid does on the component where its density is the reference's."""
+        return self.p * self.q

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from arthur_acausal import Connector, Real, Record, flow, parameter, potential
+from casadi import SX
+
+from arthur_acausal import Connector, Real, Record, der, flow, parameter, potential
 
 
 class Frame(Connector):
@@ -18,6 +20,10 @@ class Frame(Connector):
     fx: Real = flow("N")
     fy: Real = flow("N")
     tau: Real = flow("N*m")
+
+    def power(self) -> SX:
+        """Return the power of the force and of the torque [W]."""
+        return self.fx * der(self.x) + self.fy * der(self.y) + self.tau * der(self.phi)
 
 
 class Gravity(Record):

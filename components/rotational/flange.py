@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from arthur_acausal import Connector, Real, flow, potential
+from casadi import SX
+
+from arthur_acausal import Connector, Real, der, flow, potential
 
 
 class Flange(Connector):
@@ -14,3 +16,7 @@ class Flange(Connector):
 
     phi: Real = potential("rad")
     tau: Real = flow("N*m")
+
+    def power(self) -> SX:
+        """Return the torque times the speed [W]."""
+        return self.tau * der(self.phi)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from casadi import SX
+
 from arthur_acausal import Connector, Real, flow, potential
 
 
@@ -10,3 +12,7 @@ class HeatPort(Connector):
 
     T: Real = potential("K", start=293.15, nominal=300.0, min=0.0)
     Q_flow: Real = flow("W")
+
+    def power(self) -> SX:
+        """Return the heat flow [W]."""
+        return self.Q_flow

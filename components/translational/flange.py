@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from arthur_acausal import Connector, Real, flow, potential
+from casadi import SX
+
+from arthur_acausal import Connector, Real, der, flow, potential
 
 
 class Flange(Connector):
@@ -14,3 +16,7 @@ class Flange(Connector):
 
     s: Real = potential("m")
     f: Real = flow("N")
+
+    def power(self) -> SX:
+        """Return the force times the velocity [W]."""
+        return self.f * der(self.s)

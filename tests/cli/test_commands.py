@@ -304,3 +304,17 @@ def test_plot_of_what_is_not_there(arthur: Arthur, ball_file: Path) -> None:
     assert missing.exit_code == 1 and "No such file" in missing.stderr
     ball_file.write_bytes(ball_file.read_bytes()[:2000])
     assert "is damaged" in arthur("plot", ball_file, "h").stderr
+
+
+# --- power
+
+
+def test_power_tells_what_enters_each_part(arthur: Arthur) -> None:
+    given = ("simulate", "examples.jack", "-t", "0.5", "--power")
+    text = arthur(*given).stdout.partition("energy into each part by its connectors\n")[2]
+    assert re.search(r"all together +0\.0\d\d\b", text)
+    power = only_json(arthur(*given, "--json"))["power"]
+    assert {"orifice.port_a", "orifice.port_b"} == set(power["orifice"])
+    assert sum(power["orifice"].values()) > 0.0  # it throttles
+    parts = [sum(ports.values()) for ports in power.values()]
+    assert abs(sum(parts)) < 1e-6 * max(map(abs, parts))
