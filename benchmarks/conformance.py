@@ -31,6 +31,9 @@ from benchmarks.text_problem import TextError, problem
 FloatArray = NDArray[np.float64]
 
 TIGHT = SolverOptions(rtol=1e-11, intervals=10, max_steps=1_000_000)
+PILOTS = (1e-4, 1e-6)  # relative tolerances of the runs that find magnitudes
+UNKNOWN = (1.0, 1e-6, 1e-12)  # magnitudes to try for a variable that starts at zero
+LOST = 1e-14  # of its largest value: what is left of a variable below this is of no account
 VALUE_TUBE, TIME_TUBE = 1e-3, 2e-3  # shares of a signal's range and of the time span
 LIBRARY = ("blocks", "electrical", "mechanics", "rotational", "thermal", "translational")
 NOT_BUILT = "not built"
@@ -54,9 +57,37 @@ class Outcome:
         return found
 
 
+def magnitudes(case: Mapping[str, Any]) -> dict[str, float]:
+    """Find the variables' magnitudes by runs with looser tolerances: a problem as text says nothing of them.
+
+    Of a variable that keeps its sign that at the end, since it may decay over decades; else the largest.
+    """
+    for unknown in UNKNOWN:
+        try:
+            return _magnitudes(case, unknown)
+        except SimulationError:  # far too wide a tolerance for a small variable
+            continue
+    return {}
+
+
+def _magnitudes(case: Mapping[str, Any], unknown: float) -> dict[str, float]:
+    found: dict[str, float] = {}
+    for rtol in PILOTS:
+        run = translate(problem(case, found, unknown), check_units=False)
+        solution = run.simulate(float(case["t_end"]), options=TIGHT.replace(rtol=rtol, intervals=500))
+        for name in case["variables"]:
+            values = np.asarray(solution[name])[1:]
+            largest = float(np.max(np.abs(values)))
+            keeps = bool(np.all(values > 0.0) or np.all(values < 0.0))
+            size = max(abs(float(values[-1])), LOST * largest) if keeps else largest
+            found |= {name: size} if size > 0.0 else {}
+    return found
+
+
 def end_values(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
     """Solve a problem given as text; the error of its end values as its measure says."""
-    solution = translate(problem(case), check_units=False).simulate(float(case["t_end"]), options=TIGHT)
+    model = problem(case, magnitudes(case))
+    solution = translate(model, check_units=False).simulate(float(case["t_end"]), options=TIGHT)
     reference: dict[str, float] = case["reference"]["values"]
     measure: str = case["required"]["measure"]
     names = list(reference)

@@ -15,7 +15,7 @@ from scipy.linalg import expm
 from arthur_acausal import SolverOptions, translate
 from benchmarks.chains import Oscillator
 from benchmarks.conformance import out_of_tube
-from benchmarks.text_problem import TextError, value_of
+from benchmarks.text_problem import TextError, problem, value_of
 
 
 @pytest.mark.parametrize(
@@ -98,3 +98,28 @@ def test_a_case_from_a_folder_and_one_without_a_model(tmp_path: Path) -> None:
         "pass": False,
         "why": "not built",
     }
+
+
+def test_conditionals_and_extremes_of_numbers() -> None:
+    names = {"x": 3.0, "t": 0.5}
+    assert value_of("1 if x < 2 else 5", names) == 5.0
+    assert value_of("where(0 < t <= 1 and not x < 2, x, 0)", names) == 3.0
+    assert value_of("max(x, 1, 7) - min(x, t)", names) == 6.5
+    for text in "x if x else 1", "max()", "sin(x, t)", "True", "x if __import__('os') < 1 else 2", "x == 3":
+        with pytest.raises(TextError):
+            value_of(text, names)
+
+
+def test_a_problem_with_a_condition_on_time_and_starts_in_any_order() -> None:
+    case = {
+        "name": "pulse",
+        "parameters": {"T": 0.5, "h": "2*T"},
+        "variables": ["x", "y"],
+        "definitions": [["u", "h if t < T else 0"], ["w", "x + y"]],
+        "equations": ["der(x) = u", "y == 2*x + (1 if x >= 10 else 0)"],
+        "y0": {"y": "2*x", "x": "h - 1"},
+        "t0": 0.0,
+    }
+    solution = translate(problem(case), check_units=False).simulate(2.0)
+    assert solution.final("x") == pytest.approx(0.5)
+    assert solution.final("y") == pytest.approx(1.0)
