@@ -23,16 +23,19 @@ class Actuator(Component):
     Ports: ``supply``, ``tank``; ``joint``, the flange that the cylinder turns. The piston's mass is not in it: it
     stands, reflected, in the joint's inertia. The pistons' stops are the limits of the joint.
 
-    States: chamber pressures, spool position and velocity, and the controller's.
+    States: chamber pressures, spool position and velocity, and the controller's. It starts with a closed valve, the
+    mean of the chambers' pressures being that of supply and return, and with the force that is asked for.
 
     Structural parameters: ``linkage_of``, the joint's linkage; ``direction``, +1 where extension increases the
-    angle; ``law``, "feed-forward" or the report's "bare" PID (see FeedForwardControl, BareControl).
+    angle; ``law``, "feed-forward" or the report's "bare" PID (see FeedForwardControl, BareControl);
+    ``start_at_demand``: False where something else decides about the force at the start, as the balance of a body.
     """
 
     linkage_of: JointLinkage
     direction: int = 1
     law: ForceLaw = "feed-forward"
     spool: Spool = "second order"
+    start_at_demand: bool = True
     supply = HydraulicPort()
     tank = HydraulicPort()
     joint = rotational.Flange()
@@ -102,3 +105,12 @@ class Actuator(Component):
         yield connect(self.F_d, control.F_d)
         yield connect(control.I, valve.I)
         yield connect(control.q_supply, self.q_supply)
+
+    def initial_equations(self) -> Equations:
+        cylinder = self.cylinder
+        yield "mean pressure", cylinder.p_A + cylinder.p_B == self.supply.p + self.tank.p
+        yield "valve closed", self.valve.x == 0
+        yield "valve at rest", self.valve.v == 0
+        yield "no integral", self.control.x == 0
+        if self.start_at_demand:
+            yield "force as asked", self.control.e == 0

@@ -19,6 +19,7 @@ class Hydraulics(Component):
     asked for, ``actuators[i].F_d`` [N].
     """
 
+    start_at_demand: bool = True
     options: QuadrupedOptions = QuadrupedOptions()
     fluid: Fluid = Fluid()
 
@@ -43,6 +44,7 @@ class Hydraulics(Component):
                 spool=choice.spool,
                 q_rated=choice.q_rated,
                 c=choice.c,
+                start_at_demand=self.start_at_demand,
             )
             for leg in LEGS
             for joint in JOINTS

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 from casadi import SX, fmax, fmin
 
-from arthur_acausal import Component, Equations, Real, der, parameter, real_input, real_output, variable
+from arthur_acausal import (
+    Component,
+    Equations,
+    Real,
+    der,
+    discrete,
+    parameter,
+    real_input,
+    real_output,
+    variable,
+)
 
 
 class Planned(Component):
-    """A flow [m^3/s] that the locomotion controller plans for a moment of its horizon: the signal ``q``."""
+    """A flow ``q`` [m^3/s] planned for a moment ahead; whoever plans sets it at events, until then it is 0."""
 
-    q: Real = real_input("m^3/s", default=0.0, nominal=1e-4, display="L/min")
+    q: Real = discrete("m^3/s")
 
 
 class PumpControl(Component):
     """What all controllers of the pump share: their interface, and the loop of the speed.
 
     Inputs: ``w`` [rad/s] speed of the motor, ``p`` [Pa] supply pressure, ``q_command`` [m^3/s] flow that the
-    actuators' controllers ask for now, ``plan[k].q`` the flow planned at the k-th of ``horizon`` moments ahead, spaced
-    by the locomotion controller's step (a controller that predicts uses it, the others do not). Output: ``V`` [V],
+    actuators' controllers ask for now, ``plan[k].q`` the flow planned for k steps of the locomotion controller ahead,
+    from now on to its ``horizon`` (a controller that predicts uses it, the others do not). Output: ``V`` [V],
     the voltage asked of the drive: V = K_e w_d + R_p p + k_w (w_d - w), back-emf and load ahead, so that the speed
     follows ``w_d`` [rad/s].
 
@@ -38,7 +48,7 @@ class PumpControl(Component):
     w_d: Real = variable("rad/s", nominal=500.0, display="rpm", description="speed asked for")
 
     def build(self) -> None:
-        self.plan = [Planned() for _ in range(self.horizon)]
+        self.plan = [Planned() for _ in range(self.horizon + 1)]
 
     def equations(self) -> Equations:
         ahead = self.K_e * self.w_d + self.R_p * self.p

@@ -29,8 +29,6 @@ from arthur_acausal.components.hydraulic import PressureSource, Tank
 from arthur_acausal.models.arthur.actuator import Actuator, ForceLaw
 from arthur_acausal.models.arthur.linkages import LINKAGES
 
-STANDING = {"act.cylinder.p_A": 5e6, "act.cylinder.p_B": 6.6e6}
-
 
 class Swinging(Component):
     """Asks for the force of a PD law that lets a knee swing by +-0.5 rad twice a second: pistons reach 0.16 m/s."""
@@ -100,7 +98,7 @@ def tracking(solution: Solution) -> float:
 @pytest.mark.parametrize("J", [0.006, 0.012, 0.05])
 def test_force_follows_the_demand_within_a_tenth(J: float) -> None:
     """8 to 80 kg at the piston, as the links of a leg reflect."""
-    run = leg().simulate(1.0, tolerance=1e-5, parameters={"inertia.J": J}, start=STANDING)
+    run = leg().simulate(1.0, tolerance=1e-5, parameters={"inertia.J": J})
     assert np.abs(run["act.cylinder.v"]).max() > 0.15
     assert tracking(run) < 0.06
     assert run["act.cylinder.p_A"].min() > 0 < run["act.cylinder.p_B"].min()
@@ -108,7 +106,7 @@ def test_force_follows_the_demand_within_a_tenth(J: float) -> None:
 
 def test_force_control_alone_does_not_follow() -> None:
     """The chambers' stiffness times the piston's velocity is a disturbance that the bare PID cannot keep up with."""
-    assert tracking(leg("bare").simulate(1.0, tolerance=1e-5, start=STANDING)) > 0.5
+    assert tracking(leg("bare").simulate(1.0, tolerance=1e-5)) > 0.5
 
 
 def test_states_of_one_actuator() -> None:
@@ -120,7 +118,7 @@ def test_states_of_one_actuator() -> None:
 
 
 def test_work_of_the_cylinder_is_work_of_the_joint() -> None:
-    run = leg().simulate(0.5, tolerance=1e-6, start=STANDING)
+    run = leg().simulate(0.5, tolerance=1e-6)
     at_piston = run["act.load_cell.f"] * run["act.cylinder.v"]
     at_joint = run["act.linkage.tau"] * run["inertia.w"]
     assert at_piston == pytest.approx(at_joint, abs=1e-8 * np.abs(at_piston).max())
@@ -132,7 +130,7 @@ def test_the_inverse_valve_law_keeps_the_force() -> None:
     Each chamber stiffens with A^2/V, so F' is in proportion to (Q_A/A_A - v) A_A + (Q_B/A_B - v) A_B.
     """
     control, valve, cylinder = "act.control.", "act.valve.", "act.cylinder."
-    run = leg().simulate(0.4, tolerance=1e-6, start=STANDING)
+    run = leg().simulate(0.4, tolerance=1e-6)
     rho, K_V = run.final("act.fluid.rho"), run.final(valve + "K_V")
     A_A, A_B = run.final(cylinder + "A_A"), run.final(cylinder + "A_B")
     p = {name: run[control + f"p_{name}"] for name in "stAB"}
