@@ -44,6 +44,9 @@ class Actuator(Component):
     q_supply: Real = real_output(
         "m^3/s", nominal=1e-5, display="L/min", description="flow asked of the supply"
     )
+    P_valve: Real = real_output("W", description="power turned to heat in the valve")
+    P_cylinder: Real = real_output("W", description="power turned to heat in the cylinder")
+    P_work: Real = real_output("W", description="power given to the joint")
     q_rated: Real = parameter(
         "m^3/s", default=2e-3 / 60, min=0.0, display="L/min", description="of the valve"
     )
@@ -105,6 +108,9 @@ class Actuator(Component):
         yield connect(self.F_d, control.F_d)
         yield connect(control.I, valve.I)
         yield connect(control.q_supply, self.q_supply)
+        yield connect(valve.P_loss, self.P_valve)
+        yield connect(cylinder.P_loss, self.P_cylinder)
+        yield self.P_work == self.load_cell.f * self.speed.v
 
     def initial_equations(self) -> Equations:
         cylinder = self.cylinder

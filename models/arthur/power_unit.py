@@ -6,6 +6,7 @@ from math import pi
 from typing import Literal
 
 from arthur_acausal import Component, Equations, Real, connect, der, parameter, real_input, start
+from arthur_acausal.components.blocks import EnergyMeter
 from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic import (
     GPM,
@@ -25,6 +26,22 @@ from arthur_acausal.components.hydraulic import (
 from arthur_acausal.components.rotational import SpeedSensor
 from arthur_acausal.models.arthur.pump_control import ConstantSpeed, FlowFeedForward, PressureControl
 
+POWERS = {
+    "input": ("drive", "P_battery"),
+    "drive": ("drive", "P_loss"),
+    "copper": ("motor", "P_copper"),
+    "motor_friction": ("motor", "P_friction"),
+    "pump_friction": ("pump", "P_friction"),
+    "pump_leakage": ("pump", "P_leakage"),
+    "pump_compression": ("pump", "P_compression"),
+    "relief": ("relief", "P_loss"),
+    "filter": ("filter", "P_loss"),
+    "reservoir": ("reservoir", "P_loss"),
+}
+"""Term of the energy audit -> (part, signal [W]): each loss by its own law, none a difference."""
+
+STORED = ("motor.E_stored", "pump.E_stored", "manifold.E_stored", "reservoir.E_stored")
+
 PumpLaw = Literal["constant speed", "pressure", "feed-forward"]
 
 
@@ -37,11 +54,12 @@ class PowerUnit(Component):
     would ring at 4.2 kHz.
 
     Structural parameters: ``law`` of the pump's control, see ConstantSpeed, PressureControl and FlowFeedForward;
-    ``accumulator``: False leaves it out.
+    ``accumulator``: False leaves it out; ``audit``: ``energy_*.E`` [J] integrate the powers of POWERS.
     """
 
     law: PumpLaw = "feed-forward"
     accumulator: bool = True
+    audit: bool = False
     supply = HydraulicPort()
     tank = HydraulicPort()
     fluid: Fluid = Fluid()
@@ -75,6 +93,9 @@ class PowerUnit(Component):
         )
         self.control = self._control()
         self.pressure, self.speed = PressureSensor(), SpeedSensor()
+        if self.audit:
+            for name in POWERS:
+                setattr(self, f"energy_{name}", EnergyMeter.of(1)())
 
     def _manifold(self) -> Volume | Accumulator:
         p = start(self.P_des)
@@ -113,6 +134,10 @@ class PowerUnit(Component):
         yield connect(control.V, self.drive.V_command)
         yield connect(self.drive.V, self.motor.V)
         yield connect(self.motor.P_el, self.drive.P_el)
+        if self.audit:
+            for name, (part, signal) in POWERS.items():
+                meter = getattr(self, f"energy_{name}")
+                yield connect(getattr(getattr(self, part), signal), meter.inputs()[0])
 
     def initial_equations(self) -> Equations:
         yield der(self.motor.w) == 0

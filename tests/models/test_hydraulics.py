@@ -99,6 +99,16 @@ def test_mass_of_the_fluid_is_conserved() -> None:
     assert np.ptp(run["unit.reservoir.m_fluid"]) > 1e-3 * mass[0]
 
 
+@pytest.mark.parametrize("variant", ["default", "no accumulator"])
+def test_energy_is_conserved(variant: str) -> None:
+    """From the battery's chemistry to the joints, each loss by its own law."""
+    run = translate(Sprung(audit=True, options=options_of(variant))).simulate(0.5, tolerance=1e-5)
+    energy = run.energy()
+    assert energy.input_J > 100.0
+    assert abs(energy.closure) < 3e-4
+    assert energy.losses_J["valves"] > 30.0
+
+
 def test_an_unknown_variant_is_refused() -> None:
     assert options_of("report").p_relief == 20.68e6
     assert options_of("default") == QuadrupedOptions()
