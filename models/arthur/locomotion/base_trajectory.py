@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import cos, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
 from arthur_acausal.models.arthur.locomotion.commands import Command
 from arthur_acausal.models.arthur.locomotion.estimation import Estimate
-from arthur_acausal.models.arthur.locomotion.rotation import about_z, wrapped
+from arthur_acausal.models.arthur.locomotion.rotation import wrapped
 from arthur_acausal.models.arthur.locomotion.settings import Settings
 
 FloatArray = NDArray[np.float64]
@@ -33,15 +34,15 @@ class BaseReference:
 
     Attributes
     ----------
-    velocity : desired, ahead, left and up, in a level frame of the trunk's heading (3,) [m/s].
+    velocity : desired, ahead, left and up, in a level frame of the trunk's heading [m/s].
     yaw_rate : desired [rad/s]. Both follow the command as ramps.
     """
 
     def __init__(self, settings: Settings) -> None:
-        self.velocity = np.zeros(3)
+        self.velocity = [0.0, 0.0, 0.0]
         self.yaw_rate = 0.0
         self._settings = settings
-        self._place = np.zeros(2)
+        self._place = [0.0, 0.0]
         self._started = False
         self._yaw = 0.0
         self._height = 0.0
@@ -49,26 +50,27 @@ class BaseReference:
 
     def update(self, command: Command, estimate: Estimate, walking: bool) -> None:
         """Advance by one period. A robot that stands keeps its trunk in the middle of its feet."""
-        period, most = self._settings.period, self._settings.acceleration * self._settings.period
+        period, yaw = self._settings.period, estimate.yaw
+        here = estimate.position.tolist()
         if not self._started:
             self._started = True
-            self._place, self._yaw = estimate.position[:2].copy(), estimate.yaw
-            self._height = float(estimate.position[2])
+            self._place, self._yaw, self._height = here[:2], yaw, here[2]
         if not walking:
-            self._place = estimate.position[:2] + estimate.point[:, :2].mean(axis=0)
-        aim = (command.v_x, command.v_y) if walking else (0.0, 0.0)
-        for i, wanted in enumerate(aim):
-            self.velocity[i] += min(most, max(-most, wanted - self.velocity[i]))
-        wanted = command.yaw_rate if walking else 0.0
-        self.yaw_rate += min(most, max(-most, wanted - self.yaw_rate))
-        self._height += min(most, max(-most, command.height - self._height))
-        reach = self._settings.position_reach
-        here = estimate.position[:2]
-        place = self._place + period * (about_z(estimate.yaw) @ self.velocity)[:2]
-        self._place = np.minimum(np.maximum(place, here - reach), here + reach)
-        ahead = wrapped(self._yaw + period * self.yaw_rate - estimate.yaw)
-        most = self._settings.yaw_reach
-        self._yaw = estimate.yaw + min(most, max(-most, ahead))
+            self._place = (estimate.position + estimate.point.mean(axis=0)).tolist()[:2]
+        v_x, v_y, yaw_rate = (command.v_x, command.v_y, command.yaw_rate) if walking else (0.0, 0.0, 0.0)
+        most = self._settings.acceleration * period
+        self.velocity = [
+            _towards(v, aim, most) for v, aim in zip(self.velocity, (v_x, v_y, 0.0), strict=True)
+        ]
+        self.yaw_rate = _towards(self.yaw_rate, yaw_rate, most)
+        self._height = _towards(self._height, command.height, most)
+        reach, (v_x, v_y, _) = self._settings.position_reach, self.velocity
+        x, y = self._place
+        x += period * (cos(yaw) * v_x - sin(yaw) * v_y)
+        y += period * (sin(yaw) * v_x + cos(yaw) * v_y)
+        self._place = [_towards(here[0], x, reach), _towards(here[1], y, reach)]
+        ahead = wrapped(self._yaw + period * self.yaw_rate - yaw)
+        self._yaw = yaw + _towards(0.0, ahead, self._settings.yaw_reach)
 
     def trajectory(self) -> BaseTrajectory:
         """Return the desired motion over the horizon, level and at the commanded height."""
@@ -83,3 +85,8 @@ class BaseReference:
         pose[:, 3:5] = self._place + self._settings.step * np.cumsum(twist[:, 3:5], axis=0)
         pose[:, 5] = self._height
         return BaseTrajectory(pose, twist)
+
+
+def _towards(value: float, aim: float, most: float) -> float:
+    """Return the value moved to the aim, but no farther than ``most``."""
+    return value + min(most, max(-most, aim - value))

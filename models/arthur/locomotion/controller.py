@@ -112,12 +112,11 @@ class Controller:
         radius = hypot(c.robot.hip_x, c.robot.hip_y + c.robot.offset)
         wanted = hypot(command.v_x, command.v_y) + radius * abs(command.yaw_rate)
         walking = walk_state(wanted, c.settings.still, command.gait) is Walk.WALK
-        v_x, v_y, _ = self._reference.velocity.tolist()
-        speed = hypot(v_x, v_y) + radius * abs(self._reference.yaw_rate)
+        speed = hypot(*self._reference.velocity[:2]) + radius * abs(self._reference.yaw_rate)
         gait, limits = GAITS[command.gait], c.settings.stance_limits
         self._modulator.update(c.settings.period, walking, gait, command.half_step, speed, limits)
-        S_st, S_sw = self._modulator.S_st.tolist(), self._modulator.S_sw.tolist()
-        for leg, st, sw, contact in zip(self._legs, S_st, S_sw, state.contact.tolist(), strict=True):
+        m = self._modulator
+        for leg, st, sw, contact in zip(self._legs, m.S_st, m.S_sw, state.contact.tolist(), strict=True):
             leg.update(st, sw, contact)
         return walking
 
@@ -142,7 +141,7 @@ class Controller:
         place = foot_placement(
             hips(robot, self._modulator.gait.inward),
             velocity,
-            reference.velocity,
+            np.array(reference.velocity),
             reference.yaw_rate,
             self._modulator.T_st,
             self.configuration.settings.velocity_gain,
@@ -185,7 +184,7 @@ class Controller:
         level = about_z(state.yaw)
         v = state.R.T @ level @ self._reference.velocity
         w = self._reference.yaw_rate * state.R[2]
-        after = self._landings(state, self._reference.velocity)
+        after = self._landings(state, np.array(self._reference.velocity))
         foot, velocity, standing = self._foot_plan(
             phase.reshape(-1),
             np.where(stance, 0.0, 1.0),
@@ -208,7 +207,7 @@ class Controller:
     def _swing_state(self, i: int) -> float:
         """Return S_sw of a leg, above 1 while it waits for the contact."""
         late: float = self._legs[i].waiting / self._modulator.T_sw
-        S = float(self._modulator.S_sw[i])
+        S = self._modulator.S_sw[i]
         return S if S > 0.0 else 1.0 + late
 
     def _torques(self, state: Estimate, stance: BoolArray) -> FloatArray:

@@ -125,7 +125,6 @@ class Estimator:
         change[2] -= self._settings.gravity
         self._velocity = self._velocity + period * change
         self._position = self._position + period * self._velocity
-        n = int(standing.sum())
-        if n:
-            self._velocity += gain * (said[standing].sum(axis=0) - n * self._velocity)
-            self._position[2] -= gain * (point[standing, 2].sum() + n * self._position[2])
+        share = gain * standing
+        self._velocity += share @ said - share.sum() * self._velocity
+        self._position[2] -= share @ (point[:, 2] + self._position[2])

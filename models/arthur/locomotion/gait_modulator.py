@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from arthur_acausal.models.arthur.locomotion.gaits import GAITS, Gait
-
-FloatArray = NDArray[np.float64]
 
 
 def stance_time(gait: Gait, half_step: float, speed: float, limits: tuple[float, float]) -> float:
@@ -29,20 +24,18 @@ class GaitModulator:
 
     Attributes
     ----------
-    S_st, S_sw : stance and swing state of each leg (4,), 0..1; both zero at rest. running : whether a leg may lift.
-    T_st, T_sw : stance and swing time [s]. gait : in use. S : the legs' place in the stride (4,), 0..1.
+    S_st, S_sw : stance and swing state of each leg, 0..1; both zero at rest. running : whether a leg may lift.
+    T_st, T_sw : stance and swing time [s]. gait : in use. S : the legs' place in the stride, 0..1.
     """
 
     def __init__(self) -> None:
         self.gait = GAITS["stand"]
         self.running = False
-        self.S = np.zeros(4)
-        self.S_st = np.zeros(4)
-        self.S_sw = np.zeros(4)
+        self.S = self.S_st = self.S_sw = [0.0] * 4
         self.T_sw = self.gait.swing_time
         self.T_st = self.T_sw
         self._phase = 0.0
-        self._parked = np.ones(4, dtype=bool)
+        self._parked = [True] * 4
 
     @property
     def duty(self) -> float:
@@ -59,18 +52,18 @@ class GaitModulator:
         limits: tuple[float, float],
     ) -> None:
         """Advance by one period [s]; ``speed`` is |v_d| [m/s] with the yaw rate times the hips' radius."""
-        if self._parked.all() and walking and not self.running:
+        if all(self._parked) and walking and not self.running:
             self.gait, self.running, self._phase = gait, True, 0.0
-            self._parked[:] = False
+            self._parked = [False] * 4
             period = 0.0
         self.running = self.running and walking and gait == self.gait
         self.T_sw = self.gait.swing_time
         self.T_st = stance_time(self.gait, half_step, speed, limits)
         self._phase = (self._phase + period / (self.T_st + self.T_sw)) % 1.0
-        self.S = (self._phase + np.array(self.gait.lag)) % 1.0
+        self.S = [(self._phase + lag) % 1.0 for lag in self.gait.lag]
         duty = self.duty
-        stance = self.S < duty
         if not self.running:
-            self._parked |= stance
-        self.S_st = np.where(stance & ~self._parked, self.S / duty, 0.0)
-        self.S_sw = np.where(stance | self._parked, 0.0, (self.S - duty) / (1.0 - duty))
+            self._parked = [parked or S < duty for parked, S in zip(self._parked, self.S, strict=True)]
+        each = list(zip(self.S, self._parked, strict=True))
+        self.S_st = [S / duty if S < duty and not parked else 0.0 for S, parked in each]
+        self.S_sw = [(S - duty) / (1.0 - duty) if S >= duty and not parked else 0.0 for S, parked in each]

@@ -22,6 +22,10 @@ from arthur_acausal.models.arthur.locomotion.settings import Settings
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.int_]
+
+PATTERNS = 64
+"""How many patterns of stance are kept at most: those of a stride, and some."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +42,25 @@ class ForceProblem:
     upper: FloatArray
 
 
+@dataclass(frozen=True, slots=True)
+class _Pattern:
+    """What depends on nothing but which feet stand when.
+
+    steps, feet : of each force. index : step of each unknown. pose_pairs, twist_pairs : how two unknowns work together
+    on the squares of pose and twist over the horizon. A, lower, upper : friction pyramids. share : of the weight [N].
+    """
+
+    steps: IntArray
+    feet: IntArray
+    index: IntArray
+    pose_pairs: FloatArray
+    twist_pairs: FloatArray
+    A: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+    share: FloatArray
+
+
 class StanceControl:
     """Builds and solves the force problem."""
 
@@ -49,13 +72,11 @@ class StanceControl:
         # A force during step j has changed the velocity by h at the end of step k >= j, the position by reach[k, j].
         self._reach = h * h * np.maximum(step[:, None] - step[None, :] + 0.5, 0.0) * (step[:, None] >= step)
         self._pushes = h * (step[:, None] >= step)
-        self._pose_pairs = self._reach.T @ self._reach
-        self._twist_pairs = self._pushes.T @ self._pushes
         self._times = h * (step + 1.0)
         w = settings.weights
-        self._pose_weight = np.array([*w.angles, *w.position])
-        self._twist_weight = np.array([*w.rate, *w.velocity])
-        self._constraints = {k: self._cone(k) for k in range(1, 4 * n + 1)}
+        self._pose_weight = np.array([[*w.angles, *w.position]]).T
+        self._twist_weight = np.array([[*w.rate, *w.velocity]]).T
+        self._patterns: dict[bytes, _Pattern] = {}
 
     def problem(
         self, estimate: Estimate, wanted: BaseTrajectory, arms: FloatArray, stance: BoolArray
@@ -67,47 +88,44 @@ class StanceControl:
         wanted : desired motion at the steps' ends. arms : centre of mass to feet, at the steps' beginnings (N, 4, 3).
         stance : which feet stand in which step (N, 4).
         """
-        steps, feet = np.nonzero(stance)
-        count = len(steps)
-        R, turn = estimate.R, about_z(estimate.yaw).T
-        spin = turn @ (R / np.array(self._settings.inertia)) @ R.T
-        # Columns: the accelerations of (roll, pitch, yaw, x, y, z), and of (angular velocity, velocity), by a force.
-        twist = np.zeros((6, count, 3))
-        x, y, z = arms[steps, feet].T
-        levers = np.zeros((3, count, 3))
-        levers[0, :, 1], levers[0, :, 2] = -z, y
-        levers[1, :, 0], levers[1, :, 2] = z, -x
-        levers[2, :, 0], levers[2, :, 1] = -y, x
-        pose = np.zeros((6, count, 3))
-        pose[:3] = (spin @ levers.reshape(3, -1)).reshape(3, count, 3)
-        twist[:3] = (turn.T @ pose[:3].reshape(3, -1)).reshape(3, count, 3)
-        for axis in range(3):
-            twist[3 + axis, :, axis] = pose[3 + axis, :, axis] = 1.0 / self._mass
-        U, V = pose.reshape(6, -1), twist.reshape(6, -1)
-        weighted_U, weighted_V = self._pose_weight[:, None] * U, self._twist_weight[:, None] * V
-        index = np.repeat(steps, 3)
-        H = weighted_U.T @ U
-        H *= self._pose_pairs[index[:, None], index]
-        H_twist = weighted_V.T @ V
-        H_twist *= self._twist_pairs[index[:, None], index]
-        H += H_twist
+        pattern = self._pattern(stance)
+        turn = about_z(estimate.yaw).T
+        U, V = self._effects(estimate.R, turn, arms[pattern.steps, pattern.feet])
+        weighted_U, weighted_V = self._pose_weight * U, self._twist_weight * V
         force = self._settings.weights.force
-        H.flat[:: 3 * count + 1] += force
+        H = weighted_U.T @ U
+        H *= pattern.pose_pairs
+        H_twist = weighted_V.T @ V
+        H_twist *= pattern.twist_pairs
+        H += H_twist
+        H.flat[:: len(H) + 1] += force
 
-        pose_error, twist_error = self._free(estimate, turn)
-        pose_error -= wanted.pose
-        twist_error -= wanted.twist
-        g = np.einsum("ij,ij->j", weighted_U, (pose_error.T @ self._reach)[:, index])
-        g += np.einsum("ij,ij->j", weighted_V, (twist_error.T @ self._pushes)[:, index])
-        share = self._mass * self._settings.gravity / np.maximum(stance.sum(axis=1), 1)
-        g[2::3] -= force * share[steps]
-        return ForceProblem(H, g, *self._constraints[count])
+        pose, twist = self._free(estimate, turn)
+        pose_error, twist_error = pose - wanted.pose, twist - wanted.twist
+        g = (weighted_U * (pose_error.T @ self._reach)[:, pattern.index]).sum(axis=0)
+        g += (weighted_V * (twist_error.T @ self._pushes)[:, pattern.index]).sum(axis=0)
+        g[2::3] -= force * pattern.share
+        return ForceProblem(H, g, pattern.A, pattern.lower, pattern.upper)
 
     def forces(self, problem: ForceProblem, stance: BoolArray) -> FloatArray:
         """Return the forces on the robot, zero for feet that swing (N, 4, 3) [N]."""
         forces = np.zeros((*stance.shape, 3))
         forces[stance] = solve(problem).reshape(-1, 3)
         return forces
+
+    def _effects(self, R: FloatArray, turn: FloatArray, arms: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the accelerations of (roll, pitch, yaw, x, y, z) and of the twist by each unknown, 6 x n."""
+        count = len(arms)
+        levers, push = np.zeros((3, count, 3)), np.zeros((3, count, 3))
+        x, y, z = arms.T
+        levers[0, :, 1], levers[0, :, 2] = -z, y
+        levers[1, :, 0], levers[1, :, 2] = z, -x
+        levers[2, :, 0], levers[2, :, 1] = -y, x
+        for axis in range(3):
+            push[axis, :, axis] = 1.0 / self._mass
+        spin = (R / np.array(self._settings.inertia)) @ R.T @ levers.reshape(3, -1)
+        moved = push.reshape(3, -1)
+        return np.concatenate([turn @ spin, moved]), np.concatenate([spin, moved])
 
     def _free(self, estimate: Estimate, turn: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return pose and twist at the steps' ends without any force on the feet."""
@@ -120,6 +138,26 @@ class StanceControl:
         twist[:, :3] = estimate.rate
         twist[:, 3:] = estimate.velocity + t * gravity
         return pose, twist
+
+    def _pattern(self, stance: BoolArray) -> _Pattern:
+        key = stance.tobytes()
+        if key not in self._patterns:
+            if len(self._patterns) >= PATTERNS:
+                self._patterns.clear()
+            steps, feet = np.nonzero(stance)
+            index = np.repeat(steps, 3)
+            pairs = np.ix_(index, index)
+            share = self._mass * self._settings.gravity / np.maximum(stance.sum(axis=1), 1)
+            self._patterns[key] = _Pattern(
+                steps,
+                feet,
+                index,
+                (self._reach.T @ self._reach)[pairs],
+                (self._pushes.T @ self._pushes)[pairs],
+                *self._cone(len(steps)),
+                share[steps],
+            )
+        return self._patterns[key]
 
     def _cone(self, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return A, lower and upper of so many forces: 0 <= f_z <= most, |f_x|, |f_y| <= mu f_z."""
