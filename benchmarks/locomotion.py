@@ -202,11 +202,15 @@ def meets(found: dict[str, Any]) -> bool:
     return all(found[name] is None or found[name] <= limit for name, limit in limits.items())
 
 
-def measure(seeds: int, quick: bool, workers: int, only: str = "") -> list[dict[str, Any]]:
-    """Run the scenarios; ``quick`` shortens them to 4 s or what a push needs."""
+def measure(
+    seeds: int, quick: bool, workers: int, only: str = "", lag: float | None = None
+) -> list[dict[str, Any]]:
+    """Run the scenarios; ``quick`` shortens them to 4 s or what a push needs, ``lag`` [s] is set for all."""
     chosen = [scenario for scenario in SCENARIOS if only in scenario.name]
     if quick:
         chosen = [replace(s, duration=min(s.duration, 4.0 if s.push is None else 5.5)) for s in chosen]
+    if lag is not None:
+        chosen = [replace(scenario, lag=lag) for scenario in chosen]
     jobs = [(scenario, seed) for scenario in chosen for seed in range(seeds)]
     if workers > 1:
         with ProcessPoolExecutor(workers) as pool:
@@ -229,9 +233,10 @@ def main() -> None:
     command_line.add_argument("--seeds", type=int, default=0, help="10 by default, with --quick 2")
     command_line.add_argument("--workers", type=int, default=1, help="processes")
     command_line.add_argument("--only", default="", metavar="TEXT", help="scenarios whose name contains this")
+    command_line.add_argument("--lag", type=float, metavar="SECONDS", help="time constant of all torques")
     arguments = command_line.parse_args()
     seeds = arguments.seeds or (2 if arguments.quick else 10)
-    rows = measure(seeds, arguments.quick, arguments.workers, arguments.only)
+    rows = measure(seeds, arguments.quick, arguments.workers, arguments.only, arguments.lag)
     if arguments.json:
         print(json.dumps({"seeds": seeds, "scenarios": rows}))
     else:

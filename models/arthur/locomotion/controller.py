@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import cos, hypot, sin
+from math import cos, expm1, hypot, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,6 +85,10 @@ class Controller:
         self._start, self._v_0, self._end, self._v_1 = (np.zeros((4, 3)) for _ in range(4))
         self._height = np.zeros(4)
         self._force = np.zeros((4, 3))
+        self._torque = np.zeros(12)
+        self._share = (
+            1.0 if c.settings.smoothing <= 0.0 else -expm1(-c.settings.period / c.settings.smoothing)
+        )
         self._flow = np.zeros(n + 1)
         self._rates = np.zeros((n + 1, 12))
 
@@ -103,8 +107,9 @@ class Controller:
         if self._tick % self._every == 0 or (stance != self._stance).any():
             self._plan(state, stance)
         self._stance = stance
+        outputs = self._outputs(state, self._torques(state, stance))
         self._tick += 1
-        return self._outputs(state, self._torques(state, stance))
+        return outputs
 
     def _update_gait(self, command: Command, state: Estimate) -> bool:
         """Run the walk state machine, the gait modulator and the leg state machines (7.5 to 7.7)."""
@@ -216,7 +221,10 @@ class Controller:
         swing = [x.ravel() for x in (self._start, self._v_0, self._end, self._v_1)]
         R, force, T_sw = state.R.T.ravel(), self._force.ravel(), self._modulator.T_sw
         angles, speeds = state.angles, state.speeds
-        return self._leg_torques(stance, R, angles, speeds, force, states, T_sw, *swing, self._height)[0]
+        (wanted,) = self._leg_torques(stance, R, angles, speeds, force, states, T_sw, *swing, self._height)
+        share = self._share if self._tick else 1.0
+        self._torque += share * (wanted - self._torque)
+        return self._torque
 
     def _outputs(self, state: Estimate, torques: FloatArray) -> FloatArray:
         """Gather what outputs_of lists, in its order."""

@@ -55,6 +55,7 @@ class Settings:
     inertia : of the whole robot about its centre of mass, principal, in the trunk's frame [kg m^2].
     gravity : [m/s^2].
     stiffness, damping : of the swing foot's error [1/s^2], [1/s].
+    smoothing : time constant of the torques asked [s], so that the cylinders can follow where legs lift and land.
     touch_down : vertical speed relative to the ground at the end of a swing [m/s].
     early : share of the swing after which a contact ends it. patience : time to wait for a late contact [s].
     contact_force : that makes a contact [N].
@@ -76,6 +77,7 @@ class Settings:
     weights: Weights = Weights()
     stiffness: float = 6400.0
     damping: float = 160.0
+    smoothing: float = 0.004
     touch_down: float = -0.1
     early: float = 0.6
     patience: float = 0.04
