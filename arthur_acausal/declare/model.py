@@ -95,7 +95,8 @@ def constraint(cls: type, name: str) -> tuple[type, ...]:
             continue
         if isinstance(annotation, type):
             return (annotation,)
-        known = vars(sys.modules[base.__module__])
+        module = sys.modules.get(base.__module__)  # a notebook's or a page's may be none
+        known = vars(module) if module is not None else {}
         found = [known.get(text.strip()) for text in str(annotation).strip("\"'").split("|")]
         return (
             tuple(k for k in found if isinstance(k, type)) if all(isinstance(k, type) for k in found) else ()
