@@ -65,6 +65,8 @@ class Dynamics:
     failure : why the last computation has no result, or an empty string.
     """
 
+    senses = False  # whether sensors are computed
+
     def __init__(self, model: MjModel, layout: Layout) -> None:
         self.model, self.layout, self.slots = model, layout, Slots.of(layout)
         self.data = data = mujoco().MjData(model)
@@ -103,7 +105,7 @@ class Dynamics:
                 if stage == 0:
                     self._mujoco.mj_fwdKinematics(self.model, self.data)
                 self._apply_wrenches(inputs)
-            self._mujoco.mj_forwardSkip(self.model, self.data, stage, True)
+            self._mujoco.mj_forwardSkip(self.model, self.data, stage, not self.senses)
         except self._mujoco.FatalError as error:
             self._mujoco.mj_resetData(self.model, self.data)
             self.failure = f"MuJoCo: {' '.join(str(error).split())}"

@@ -1,28 +1,29 @@
-"""The external function of a residual: a model's accelerations, with their derivative."""
+"""The external functions of a residual: a model's accelerations, or what is observed, with their derivatives."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
 from arthur_acausal.mujoco.derivative import MAX_AGE, Differences, Stale
-from arthur_acausal.mujoco.dynamics import Dynamics, FloatArray
-from arthur_acausal.mujoco.engine import MjModel
-from arthur_acausal.mujoco.layout import Layout
+from arthur_acausal.mujoco.dynamics import FloatArray
+from arthur_acausal.mujoco.recipe import Recipe
 
 
 class BodyFunction:
-    """Accelerations of a model, for the residual: inputs and outputs stand in :mod:`dynamics`.
+    """Accelerations of a model, for the residual; inputs and outputs stand in :mod:`dynamics`.
 
-    ``max_age``: how often a derivative is handed out before it is computed anew, as long as the same contacts act.
+    ``observes``: the outputs are what is observed instead. ``max_age``: how often a derivative is handed out before
+    it is computed anew, as long as the same contacts act.
     """
 
-    def __init__(
-        self, model: MjModel, layout: Layout, *, name: str = "MuJoCo", max_age: int = MAX_AGE
-    ) -> None:
-        self.name, self._max_age = name, max_age
-        self.dynamics = Dynamics(model, layout)
-        self.n_inputs = self.dynamics.slots.count
-        self.n_outputs = self.dynamics.n_outputs
+    def __init__(self, recipe: Recipe, *, observes: bool = False, max_age: int = MAX_AGE) -> None:
+        self.name = f"{recipe.source.name}, observed" if observes else recipe.source.name
+        self.recipe, self.observes, self.max_age = recipe, observes, max_age
+        self.dynamics = recipe.observing() if observes else recipe.dynamics()
+        self.n_inputs, self.n_outputs = self.dynamics.slots.count, self.dynamics.n_outputs
         self._stale = Stale(Differences(self.dynamics), max_age)
 
     @property
@@ -51,4 +52,14 @@ class BodyFunction:
 
     def fresh(self) -> BodyFunction:
         """Return an independent function of the same model, for another run."""
-        return BodyFunction(self.dynamics.model, self.dynamics.layout, name=self.name, max_age=self._max_age)
+        return BodyFunction(self.recipe, observes=self.observes, max_age=self.max_age)
+
+    def describe(self) -> dict[str, Any]:
+        """Return all that it takes to make this function elsewhere, in terms of JSON."""
+        return {"recipe": self.recipe.as_data(), "observes": self.observes, "max_age": self.max_age}
+
+    @classmethod
+    def restore(cls, data: Mapping[str, Any]) -> BodyFunction:
+        """Return the function that ``describe`` told of."""
+        recipe = Recipe.of_data(data["recipe"])
+        return cls(recipe, observes=bool(data["observes"]), max_age=int(data["max_age"]))

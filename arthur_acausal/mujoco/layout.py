@@ -9,6 +9,7 @@ import keyword
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from math import atan2
 from typing import Literal, TypeAlias
 
 from arthur_acausal import DeclarationError, UsageError
@@ -43,6 +44,12 @@ class Joint:
     @property
     def n_v(self) -> int:
         return N_V[self.kind]
+
+    @property
+    def heading(self) -> float:
+        """Turn about the vertical [rad] in which a free joint begins."""
+        w, *_, z = self.q_start[3:]
+        return 2.0 * atan2(z, w)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,20 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from arthur_acausal.mujoco.derivative import turning
+from arthur_acausal.mujoco.derivative import MAX_AGE, turning
 from arthur_acausal.mujoco.dynamics import FloatArray
 from arthur_acausal.mujoco.engine import mujoco
 from arthur_acausal.mujoco.function import BodyFunction
-from arthur_acausal.mujoco.layout import layout
-from arthur_acausal.mujoco.load import build, read
-from arthur_acausal.mujoco.purity import pure
+from arthur_acausal.mujoco.load import read
+from arthur_acausal.mujoco.recipe import Recipe
 from tests.mujoco.models import PENDULUM, QUADRUPED, SPHERE, joints
 
 
-def function_of(text: str, wrenches: tuple[str, ...] = (), timestep: float = 0.002) -> BodyFunction:
-    model = pure(build(read(text)), "")
-    model.opt.timestep = timestep
-    return BodyFunction(model, layout(model, wrenches=wrenches))
+def function_of(text: str, wrenches: tuple[str, ...] = (), max_age: int = MAX_AGE) -> BodyFunction:
+    return BodyFunction(Recipe(read(text), wrenches=wrenches), max_age=max_age)
 
 
 def state_of(function: BodyFunction, seed: int) -> FloatArray:
@@ -54,7 +51,10 @@ def test_accelerations_have_the_same_bits_after_a_thousand_other_calls() -> None
 
 
 def test_accelerations_do_not_depend_on_the_time_step() -> None:
-    functions = [function_of(QUADRUPED, ("back",), timestep) for timestep in (1e-5, 2e-3, 5e-2)]
+    step = '<option timestep="{}"/></mujoco>'
+    texts = [QUADRUPED.replace("</mujoco>", step.format(h)) for h in (1e-5, 2e-3, 5e-2)]
+    functions = [function_of(text, ("back",)) for text in texts]
+    assert [f.dynamics.model.opt.timestep for f in functions] == [1e-5, 2e-3, 5e-2]
     for seed in range(20):
         state = state_of(functions[0], seed)
         a, b, c = (value(f, state) for f in functions)
@@ -137,8 +137,7 @@ def test_turning_a_quaternion() -> None:
 
 
 def test_a_kept_derivative_is_renewed_by_contacts_age_and_restarts() -> None:
-    model = pure(build(read(SPHERE)), "")
-    function = BodyFunction(model, layout(model), max_age=3)
+    function = function_of(SPHERE, max_age=3)
     jacobian = np.empty((function.n_outputs, function.n_inputs))
     above = np.zeros(function.n_inputs)
     above[:4] = 0.0, 0.0, 0.15, 1.0
