@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from time import perf_counter
-from typing import Any, Literal
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -15,7 +16,19 @@ from arthur_acausal.codegen.kernel import Kernel
 from arthur_acausal.errors import SimulationError
 
 FloatArray = NDArray[np.float64]
-Need = Literal["", "values", "derivatives"]
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """What a function takes of the external ones: which calls, by their place in the order, and what of them."""
+
+    calls: tuple[int, ...]
+    derivatives: bool = False
+
+    @classmethod
+    def all(cls, calls: Sequence[ExternalCall], *, derivatives: bool = False) -> Need:
+        """Return the need of all calls."""
+        return cls(tuple(range(len(calls))), derivatives)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,9 +84,9 @@ class Calls:
         self._t = arguments[0]
         self._steps = [_Step(c, Kernel(functions.get(c.name, c.inputs), arguments), e, d) for c in calls]
 
-    def evaluate(self) -> None:
+    def _evaluate(self, steps: Sequence[_Step]) -> None:
         """Bring the outputs up to date with the arguments."""
-        for step in self._steps:
+        for step in steps:
             inputs = step.inputs()
             key = inputs.tobytes()
             if key != step.key:
@@ -82,10 +95,10 @@ class Calls:
                 self.count += 1
                 step.key = key
 
-    def differentiate(self) -> None:
+    def _differentiate(self, steps: Sequence[_Step]) -> None:
         """Bring outputs and derivatives up to date with the arguments."""
-        self.evaluate()
-        for step in self._steps:
+        self._evaluate(steps)
+        for step in steps:
             key = (step.key, self.exact)
             if key != step.slope_key:
                 step.slope_key = None
@@ -102,14 +115,24 @@ class Calls:
                 renew()
 
     def without_value(self) -> list[str]:
-        """Return the calls whose latest outputs are not all finite numbers."""
-        return [s.call.label for s in self._steps if not np.isfinite(s.outputs).all()]
+        """Return the calls whose latest outputs are not all finite numbers, with the reason where it is known."""
+        found = []
+        for step in self._steps:
+            if not np.isfinite(step.outputs).all():
+                reason = getattr(step.function, "failure", "")
+                found.append(f"{step.call.label}: {reason}" if reason else step.call.label)
+        return found
 
-    def before(self, kernel: Kernel, need: Need) -> Callable[[], FloatArray]:
+    def preparation(self, need: Need) -> Callable[[], None]:
+        """Return what brings all that is needed up to date with the arguments."""
+        steps = [self._steps[k] for k in need.calls]
+        return partial(self._differentiate if need.derivatives else self._evaluate, steps)
+
+    def before(self, kernel: Kernel, need: Need | None) -> Callable[[], FloatArray]:
         """Return a kernel that is preceded by the calls that it needs."""
-        if not need:
+        if need is None:
             return kernel
-        prepare = self.evaluate if need == "values" else self.differentiate
+        prepare = self.preparation(need)
 
         def prepared() -> FloatArray:
             prepare()
@@ -135,11 +158,11 @@ def completed(
     calls: Sequence[ExternalCall],
     arguments: Sequence[FloatArray],
     sizes: tuple[int, int],
-    need: Need = "values",
+    need: Need | None,
 ) -> list[FloatArray]:
     """Return the arguments of the kernels, each with a column a time, with those that external functions give.
 
-    ``sizes``: of e and d. Derivatives are exact; what is not needed is zero.
+    ``sizes``: of e and d; ``need``: None for nothing. Derivatives are exact; what is not needed is zero.
     """
     if not calls:
         return list(arguments)
@@ -147,10 +170,9 @@ def completed(
     columns = [a.reshape(-1, 1) if a.ndim < 2 else a for a in columns]
     count = columns[1].shape[1]
     e, d = (np.zeros((size, count)) for size in sizes)
-    if need:
+    if need is not None:
         point = [np.zeros(a.shape[0]) for a in columns] + [np.zeros(size) for size in sizes]
-        own = Calls(calls, {}, point, *point[-2:])
-        prepare = own.evaluate if need == "values" else own.differentiate
+        prepare = Calls(calls, {}, point, *point[-2:]).preparation(need)
         for k in range(count):
             for array, column in zip(point, columns, strict=False):
                 array[:] = column[:, k]

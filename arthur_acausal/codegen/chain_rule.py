@@ -34,12 +34,14 @@ class ChainRule:
         self.order = self._sorted()
 
     def _sorted(self) -> list[int]:
-        own = [self._a.e[k : k + len(c.call.sparsity)] for k, c in zip(self.first, self._calls, strict=True)]
-        needs = [
-            [j for j, outputs in enumerate(own) if outputs.numel() and ca.depends_on(x, outputs)]
-            for x in self.inputs
-        ]
+        needs = [[j for j in range(len(self._calls)) if self._takes(x, j)] for x in self.inputs]
         return [k for component in strongly_connected(needs) for k in component]
+
+    def _takes(self, value: SX, k: int) -> bool:
+        """Tell whether a value depends on an output of a call, or on a derivative of it."""
+        first, last = self.first[k], self.first[k] + len(self._calls[k].call.sparsity)
+        own = ca.vertcat(self._a.e[first:last], self._a.d[self.slope[k] : self.slope[k + 1]])
+        return bool(own.numel() and ca.depends_on(value, own))
 
     def __call__(self, value: SX, x: SX, rates: SX | None = None, cj: SX | None = None) -> SX:
         """Return d value / d x, plus cj d value / d rates where these are given."""
@@ -53,13 +55,15 @@ class ChainRule:
         """Tell whether a value depends on any of x, directly or through calls."""
         return bool(x.numel() and self(value, x).nnz())
 
-    def need(self, value: SX) -> Need:
+    def need(self, value: SX) -> Need | None:
         """Return what of the external functions a value is computed from."""
-        if not self._calls:
-            return ""
-        if ca.depends_on(value, self._a.d):
-            return "derivatives"
-        return "values" if ca.depends_on(value, self._a.e) else ""
+        wanted: set[int] = set()
+        for place in reversed(range(len(self.order))):
+            k = self.order[place]
+            if self._takes(value, k) or any(self._takes(self.inputs[self.order[p]], k) for p in wanted):
+                wanted.add(place)
+        derivatives = bool(wanted) and ca.depends_on(value, self._a.d)
+        return Need(tuple(sorted(wanted)), derivatives) if wanted else None
 
     def calls(self) -> list[ExternalCall]:
         """Return the calls, in order."""

@@ -150,8 +150,9 @@ class CompiledDAE:
         start = np.clip(start, self.minimum, self.maximum)
         return Attributes(start, fixed, given, self.nominal, self.minimum, self.maximum, z_start, origin)
 
-    def completed(self, arguments: Sequence[FloatArray], need: Need = "values") -> list[FloatArray]:
+    def completed(self, arguments: Sequence[FloatArray], *, derivatives: bool = False) -> list[FloatArray]:
         """Return the functions' arguments, a column a time, with what external functions give there."""
+        need = Need.all(self.calls, derivatives=derivatives)
         return completed(self.calls, arguments, self.recovery.external_sizes, need)
 
     def evaluator(self) -> Evaluator:
@@ -197,9 +198,7 @@ class Evaluator:
 
     def _kernel(self, name: str, *further: FloatArray) -> Callable[[], FloatArray]:
         kernel = Kernel(self._dae.functions[name], [*self._continuous, *further])
-        return (
-            kernel if self.external is None else self.external.before(kernel, self._dae.needs.get(name, ""))
-        )
+        return kernel if self.external is None else self.external.before(kernel, self._dae.needs.get(name))
 
     def _lazy(self, name: str, *further: FloatArray) -> Callable[[], FloatArray]:
         """Return a kernel that not every run needs; made once."""

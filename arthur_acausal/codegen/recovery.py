@@ -123,7 +123,7 @@ class Recovery:
             count = len(t[part])
             same = np.repeat(p.reshape(-1, 1), count, axis=1)
             arguments = (t[part].reshape(1, -1), y[part].T, yp[part].T, same, u[part].T, z[part].T, m[part].T)
-            need: Need = "values" if self.external[wanted].any() else ""
+            need = Need.all(self.calls) if self.external[wanted].any() else None
             complete = completed(self.calls, arguments, self.external_sizes, need)
             values = np.asarray(self.observed.map(count)(*complete), dtype=float)
             out[part] = values[wanted].T

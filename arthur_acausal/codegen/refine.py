@@ -84,7 +84,7 @@ def _newton(dae: CompiledDAE, rows: Rows) -> tuple[FloatArray, FloatArray]:
 def _steps(dae: CompiledDAE, rows: Rows, value: FloatArray) -> FloatArray:
     """Return Newton's steps (nt, n) for the unknowns: y' of states, y of algebraic variables."""
     count, n = len(rows.t), dae.n
-    arguments = dae.completed(rows.arguments(), "derivatives")
+    arguments = dae.completed(rows.arguments(), derivatives=True)
     dy, dyp = (_entries(dae, name, arguments, count) for name in ("jacobian_y", "jacobian_yp"))
     column = np.repeat(np.arange(n), np.diff(dae.sparsity.colind))
     entries = np.where(dae.differential[column], dyp, dy)

@@ -30,6 +30,7 @@ class ExternalFunction(Protocol):
     - ``sparsity``: array of truth values (n_outputs, n_inputs), which input each output depends on; default: all.
     - ``units``: (units of the inputs, units of the outputs), checked against the equations' dimensions.
     - ``restart()``: an event has been handled; a stale derivative may be renewed.
+    - ``failure``: text, why the latest evaluation had no value; messages tell it.
     - ``describe()`` and a class method ``restore(data)``, JSON data: the translated model can go to other processes.
     """
 

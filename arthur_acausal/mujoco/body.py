@@ -75,10 +75,10 @@ class MujocoBody(Component):
         mjcf = given.get("mjcf", getattr(cls, "mjcf", None))
         kind: Any = cls
         if cls._recipe is None and mjcf is not None:
-            chosen = (given.get(name, getattr(cls, name)) for name in _CHOICES)
-            kind = _class_of(
-                kind, read(mjcf), *(v if isinstance(v, str | bool) else tuple(v) for v in chosen)
-            )
+            chosen = {name: given.get(name, getattr(cls, name)) for name in _CHOICES}
+            steady, keyframe = bool(chosen.pop("steady")), str(chosen.pop("keyframe"))
+            recipe = Recipe(read(mjcf), keyframe, **{name: tuple(v) for name, v in chosen.items()})
+            kind = _class_of(kind, recipe, steady)
         return super().__new__(kind)
 
     @property

@@ -59,6 +59,29 @@ SPHERE = """
 """A sphere 5 cm above a floor; the contact's impedance begins at zero, so that its onset is smooth."""
 
 
+FREE_BODY = """
+<mujoco>
+  <option gravity="0 0 0"/>
+  <worldbody>
+    <body name="body"><freejoint/><inertial mass="1" pos="0 0 0" diaginertia="1 2 3"/></body>
+  </worldbody>
+</mujoco>"""
+
+LINK = """<body pos="0 0 {z}"><joint name="j{k}" axis="{axis}"/>
+<geom type="capsule" size="0.04" fromto="0 0 0 0.05 0 .3" mass="{mass}"/>"""
+AXES = ("0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0")
+ARM = f"""
+<mujoco>
+  <option gravity="0 0 -9.81"/>
+  <default><geom contype="0" conaffinity="0"/></default>
+  <worldbody>
+    {"".join(LINK.format(z=0.3 * (k > 0), k=k, axis=a, mass=3 - 0.4 * k) for k, a in enumerate(AXES))}
+    {"</body>" * len(AXES)}
+  </worldbody>
+</mujoco>"""
+"""Six hinges in a row, without damping, joint limits or contacts."""
+
+
 def joints(extra: str = "", option: str = "", actuator: str = "", attributes: str = "") -> str:
     """One hinge with what is given beside it."""
     return (
