@@ -111,7 +111,7 @@ def linearize(
     part = slice(row, row + 1)
     rows = Rows(x.t[part], x.y[part], x.yp[part], x.p, x.u[part], x.z[part], x.m[part])
     y, yp = refine(dae, rows)
-    point = dae.completed(Rows(rows.t, y, yp, rows.p, rows.u, rows.z, rows.m).arguments(), derivatives=True)
+    point = dae.completed(Rows(rows.t, y, yp, rows.p, rows.u, rows.z, rows.m).arguments())
     fy, fyp, fu = (
         np.array(dae.functions[name](*point), dtype=float)
         for name in ("jacobian_y", "jacobian_yp", "jacobian_u")

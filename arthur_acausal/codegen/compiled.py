@@ -38,6 +38,7 @@ class CompiledDAE:
     The vector p holds the parameters, then the start values of variables, then those of discrete variables.
     z are the discrete variables (zp: before the event), m the frozen truth values of the relations.
     ``ignored``: notes of start values that were given in vain.
+    ``needs``: of "solving", what the derivatives by y' of states and by algebraic y take.
     ``starting``: the system that holds in place of this one while initial values are sought, where it is another. If
     it ``blends``, its p has one entry more: the part of homotopy's actual expressions.
     """
@@ -67,7 +68,7 @@ class CompiledDAE:
     pivot_labels: list[str] = field(repr=False)
     functions: dict[str, ca.Function] = field(repr=False)
     calls: list[ExternalCall] = field(repr=False)
-    needs: dict[str, Need] = field(repr=False)  # what a function takes of the external ones, where it does
+    needs: dict[str, Need] = field(repr=False)  # what functions take of the external ones, where they do
     recovery: Recovery = field(repr=False)
     samples: list[SampledBlock]
     relations_of_rates: bool
@@ -150,9 +151,12 @@ class CompiledDAE:
         start = np.clip(start, self.minimum, self.maximum)
         return Attributes(start, fixed, given, self.nominal, self.minimum, self.maximum, z_start, origin)
 
-    def completed(self, arguments: Sequence[FloatArray], *, derivatives: bool = False) -> list[FloatArray]:
-        """Return the functions' arguments, a column a time, with what external functions give there."""
-        need = Need.all(self.calls, derivatives=derivatives)
+    def completed(self, arguments: Sequence[FloatArray], name: str = "") -> list[FloatArray]:
+        """Return the functions' arguments, a column a time, with what external functions give there.
+
+        ``name``: of the function that they are for; default: of any, with all derivatives.
+        """
+        need = self.needs.get(name) if name else Need.all(self.calls, derivatives=True)
         return completed(self.calls, arguments, self.recovery.external_sizes, need)
 
     def evaluator(self) -> Evaluator:

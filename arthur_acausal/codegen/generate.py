@@ -153,13 +153,18 @@ def _functions(
     if entries is not None:
         kernels["state_sets"] = (arguments, entries)
         relations.append(RELATION)
+    values_of = {name: value for name, (_, value) in kernels.items()}
+    n_states = len(dae.causal.states)
+    values_of["solving"] = ca.horzcat(
+        dyp[:, :n_states], dy[:, n_states:]
+    )  # for y' of states, and the algebraic y
     tables = {
         "relations": relations,
         "whens": whens,
         "assignments": assignments,
         "samples": samples,
         "relations_of_rates": bool(roots) and rule.reaches(_column(roots), a.yp),
-        "needs": {name: need for name, (_, value) in kernels.items() if (need := rule.need(value))},
+        "needs": {name: need for name, value in values_of.items() if (need := rule.need(value))},
         "sparsity": pattern_of(both),
         "init_sparsity": pattern_of(slope),
         "init_labels": labels,

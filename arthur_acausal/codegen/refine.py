@@ -67,13 +67,19 @@ def _newton(dae: CompiledDAE, rows: Rows) -> tuple[FloatArray, FloatArray]:
     residual = dae.functions["residual"].map(count)
     y, yp = rows.y.copy(), rows.yp.copy()
     now = Rows(rows.t, y, yp, rows.p, rows.u, rows.z, rows.m)
-    value = np.asarray(residual(*dae.completed(now.arguments())), dtype=float).reshape(dae.n, count).T
+    value = (
+        np.asarray(residual(*dae.completed(now.arguments(), "residual")), dtype=float).reshape(dae.n, count).T
+    )
     for _ in range(ITERATIONS):
         step = _steps(dae, now, value)
         trial_y = np.where(differential, y, y - step)
         trial_yp = np.where(differential, yp - step, yp)
         trial = Rows(rows.t, trial_y, trial_yp, rows.p, rows.u, rows.z, rows.m)
-        new = np.asarray(residual(*dae.completed(trial.arguments())), dtype=float).reshape(dae.n, count).T
+        new = (
+            np.asarray(residual(*dae.completed(trial.arguments(), "residual")), dtype=float)
+            .reshape(dae.n, count)
+            .T
+        )
         better = np.linalg.norm(new, axis=1) < np.linalg.norm(value, axis=1)  # False where not finite
         y[better], yp[better], value[better] = trial_y[better], trial_yp[better], new[better]
         if not better.any():
@@ -84,7 +90,7 @@ def _newton(dae: CompiledDAE, rows: Rows) -> tuple[FloatArray, FloatArray]:
 def _steps(dae: CompiledDAE, rows: Rows, value: FloatArray) -> FloatArray:
     """Return Newton's steps (nt, n) for the unknowns: y' of states, y of algebraic variables."""
     count, n = len(rows.t), dae.n
-    arguments = dae.completed(rows.arguments(), derivatives=True)
+    arguments = dae.completed(rows.arguments(), "solving")
     dy, dyp = (_entries(dae, name, arguments, count) for name in ("jacobian_y", "jacobian_yp"))
     column = np.repeat(np.arange(n), np.diff(dae.sparsity.colind))
     entries = np.where(dae.differential[column], dyp, dy)

@@ -80,7 +80,7 @@ def _entries_of_guess(
     evaluator = dae.evaluator()
     guess = dae.attributes(p)
     row = (np.zeros(1), guess.start, np.zeros(dae.n), p, evaluator.u, guess.z_start, evaluator.m)
-    return np.asarray(dae.functions["state_sets"](*dae.completed(row)), dtype=float).reshape(-1)
+    return np.asarray(dae.functions["state_sets"](*dae.completed(row, "state_sets")), dtype=float).reshape(-1)
 
 
 def _last(piece: Piece) -> Rows:
@@ -92,7 +92,7 @@ def _last(piece: Piece) -> Rows:
 
 
 def _entries(piece: Piece) -> FloatArray:
-    arguments = piece.dae.completed(_last(piece).arguments())
+    arguments = piece.dae.completed(_last(piece).arguments(), "state_sets")
     return np.asarray(piece.dae.functions["state_sets"](*arguments), dtype=float).reshape(-1)
 
 
