@@ -84,7 +84,7 @@ def info(
     ] = None,
     debug: Debug = False,
 ) -> None:
-    """Describe a model: what it is, its parts, parameters and inputs."""
+    """Describe a model: its parts, parameters and inputs."""
     from arthur_acausal.cli.info import describe
 
     typer.echo(describe(model, settings or [], diagram, incidence))
@@ -93,7 +93,7 @@ def info(
 @app.command()
 @reported
 def check(model: Model, settings: Set = None, as_json: Json = False, debug: Debug = False) -> None:
-    """Check a model's structure and say how its equations are solved."""
+    """Check a model's structure, and how it is solved."""
     from arthur_acausal.api import translate
     from arthur_acausal.cli.structure import as_object, as_text, only_structural
     from arthur_acausal.request.locate import build_model

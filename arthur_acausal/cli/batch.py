@@ -103,7 +103,7 @@ def sweep(
     as_json: Json = False,
     debug: Debug = False,
 ) -> None:
-    """Run many variants of a model and keep them: one machine's cores, or a Dask cluster."""
+    """Run many variants of a model, on all cores or a cluster."""
     from arthur_acausal.cli.sweep import Request
     from arthur_acausal.cli.sweep import sweep as carry_out
 
@@ -176,7 +176,7 @@ def sweep_plot(
     ] = None,
     debug: Debug = False,
 ) -> None:
-    """Draw a sweep: curves, heat map, parallel coordinates, scatter matrix, or trajectories as a fan."""
+    """Draw a sweep: curves, heat map, parallel, matrix, fan."""
     from arthur_acausal.cli.looking import plot
 
     typer.echo(plot(folder, kind, x, y, by, output or Path(f"{folder}.png")))
@@ -216,7 +216,7 @@ def importance(
     as_json: Json = False,
     debug: Debug = False,
 ) -> None:
-    """Say which factor causes how much of a result's variance (Sobol indices; method saltelli)."""
+    """Say which factor causes how much variance (Sobol)."""
     from arthur_acausal.cli.looking import importance as carry_out
 
     typer.echo(carry_out(folder, of, as_json))

@@ -192,9 +192,10 @@ def dry_run(plan: Plan, how: How) -> str:
         lines.append(f"run 0 fails: {trial.error}")
     total = trial.wall_s * len(runs) / workers
     lines.append(
-        f"{count(len(runs), 'run')}, about {duration(total)} with {count(workers, 'worker')} if all take as long as "
-        f"run 0 ({duration(trial.wall_s)}); trajectories up to {_bytes(size(plan))} before compression"
+        f"{count(len(runs), 'run')} take about {duration(total)} with {count(workers, 'worker')}, "
+        f"{duration(trial.wall_s)} each as run 0 did;"
     )
+    lines.append(f"their trajectories take up to {_bytes(size(plan))} before compression")
     return "\n".join(lines)
 
 
@@ -223,12 +224,10 @@ def as_object(tally: Tally, folder: Path) -> dict[str, Any]:
 
 def as_text(tally: Tally, folder: Path) -> str:
     """Return the summary at the end."""
-    new = tally.ok + tally.failed - tally.kept
-    rate = f", {60.0 * new / tally.wall_s:.3g} a minute" if new and tally.wall_s > 0.0 else ""
     lines = [
         f"{count(tally.total, 'run')} in {folder}: {tally.ok:,} ok, {tally.failed:,} failed"
         + (f", {tally.kept:,} were there already" if tally.kept else "")
-        + f"; {duration(tally.wall_s)}{rate}"
+        + f", {duration(tally.wall_s)}"
     ]
     if tally.retried:
         lines.append(f"{count(tally.retried, 'attempt')} more after workers died")

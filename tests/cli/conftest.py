@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from arthur_acausal.cli.app import app
+from arthur_acausal.cli.batch import app
 
 ROOT = Path(__file__).parents[2]
 

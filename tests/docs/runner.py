@@ -24,7 +24,7 @@ from typing import Any
 from typer.testing import CliRunner
 
 from arthur_acausal import ArthurError
-from arthur_acausal.cli.app import app
+from arthur_acausal.cli.batch import app
 from tests.docs.markdown import Block
 
 PROMPT = re.compile(r"^\$ ((?:.*\\\n)*.*)\n", re.MULTILINE)  # a backslash at the end continues the command

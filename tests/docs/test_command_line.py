@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from arthur_acausal.cli.app import app
+from arthur_acausal.cli.batch import app
 from tests.docs.markdown import ROOT
 
 PAGE = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from arthur_acausal.cli.app import app
+from arthur_acausal.cli.batch import app
 
 DECAY = """
 from arthur_acausal import Component, Equations, Real, der, parameter, real_input, variable

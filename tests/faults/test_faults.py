@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 
 import arthur_acausal
 from arthur_acausal import ArthurError
-from arthur_acausal.cli.app import app
+from arthur_acausal.cli.batch import app
 
 FOLDER = Path(__file__).parent
 FAULTS = sorted(set(FOLDER.glob("*.py")) - {FOLDER / "__init__.py", Path(__file__)})
