@@ -56,7 +56,7 @@ def main() -> None:
         for name in PARTS
     }
     found["kills"] = kills(given.kills)
-    found["load"] = load_average()
+    found |= {"load": load_average()}
     if given.json:
         print(json.dumps(found))
         return

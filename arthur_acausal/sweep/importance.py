@@ -1,7 +1,7 @@
 """Global sensitivity: which factor's variation causes how much of a result's variance.
 
-Sobol indices by the estimators of Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, as SciPy computes
-them, on the runs of a sweep with ``method = "saltelli"``: two sets A and B of n samples, and for each factor A with
+Sobol indices by the estimators of Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, on the runs of a
+sweep with ``method = "saltelli"``: two sets A and B of n samples, and for each factor A with
 that factor's values out of B.
 """
 
@@ -16,6 +16,7 @@ from arthur_acausal.errors import UsageError, nearest
 from arthur_acausal.sweep.opened import Sweep
 
 CONFIDENCE = 0.95
+RESAMPLES = 500  # of the bootstrap
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +40,6 @@ def importance(sweep: Sweep, reduction: str) -> list[Importance]:
     Raises UsageError for another method than "saltelli", an unknown reduction, and where runs are missing or failed:
     the estimators need all of them.
     """
-    from scipy.stats import sobol_indices
-
     specification = sweep.specification
     if specification.method != "saltelli" or specification.samples is None:
         raise UsageError(
@@ -50,29 +49,30 @@ def importance(sweep: Sweep, reduction: str) -> list[Importance]:
     if reduction not in sweep.reductions:
         raise UsageError(f"the sweep has no {reduction!r}", remedy=nearest(reduction, sweep.reductions))
     factors, n = list(specification.vary), specification.samples
-    values = _values(sweep, reduction, n * (len(factors) + 2))
-    blocks = values.reshape(len(factors) + 2, 1, n)
-    found = sobol_indices(
-        func={"f_A": blocks[0], "f_B": blocks[1], "f_AB": blocks[2:]}, n=n, rng=np.random.default_rng(0)
-    )
-    interval = found.bootstrap(confidence_level=CONFIDENCE)
-    first, total = np.ravel(found.first_order), np.ravel(found.total_order)
-    bounds = (
-        *(np.ravel(getattr(interval.first_order.confidence_interval, side)) for side in ("low", "high")),
-        *(np.ravel(getattr(interval.total_order.confidence_interval, side)) for side in ("low", "high")),
-    )
+    blocks = _values(sweep, reduction, n * (len(factors) + 2)).reshape(len(factors) + 2, n)
+    found = _indices(blocks)
+    chance = np.random.default_rng(0)
+    drawn = np.array([_indices(blocks[:, chance.integers(0, n, n)]) for _ in range(RESAMPLES)])
+    outside = 0.5 * (1.0 - CONFIDENCE)
+    low, high = np.quantile(drawn, [outside, 1.0 - outside], axis=0)
     return [
-        Importance(
-            factor,
-            float(first[k]),
-            float(bounds[0][k]),
-            float(bounds[1][k]),
-            float(total[k]),
-            float(bounds[2][k]),
-            float(bounds[3][k]),
-        )
+        Importance(factor, *(float(x[i, k]) for i in (0, 1) for x in (found, low, high)))
         for k, factor in enumerate(factors)
     ]
+
+
+def _indices(blocks: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return [first order, total] of each factor from the values (factors + 2, n) at A, B, and A with columns of B.
+
+    Table 2 of Saltelli et al. (2010): first order by (b), total by (f), after Jansen.
+    """
+    a, b, mixed = blocks[0], blocks[1], blocks[2:]
+    variance = np.var(blocks[:2])
+    if variance == 0.0:
+        return np.zeros((2, len(mixed)))
+    first = np.mean((b - np.mean(blocks[:2])) * (mixed - a), axis=1)
+    total = 0.5 * np.mean((a - mixed) ** 2, axis=1)
+    return np.asarray(np.array([first, total]) / variance)
 
 
 def _values(sweep: Sweep, reduction: str, expected: int) -> NDArray[np.float64]:

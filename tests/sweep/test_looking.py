@@ -181,3 +181,19 @@ def test_indices_need_every_run(tmp_path: Path, swept: Sweep) -> None:
     sweep = stored(tmp_path / "d", {"a": [0.1, 0.2], "max(y)": [1.0, 2.0]}, given)
     with pytest.raises(UsageError, match="4 of 6 runs have no value"):
         importance(sweep, "max(y)")
+
+
+def test_the_indices_are_those_of_scipy(tmp_path: Path) -> None:
+    from scipy.stats import sobol_indices
+
+    given = {"vary": dict.fromkeys("ab", "0:1"), "method": "saltelli", "samples": 512}
+    design = runs(from_mapping({"model": "m", "stop_time": 1.0, **given}), tmp_path)
+    a, b = (np.array([float(run.values[name]) for run in design]) for name in "ab")
+    f = a + a * b + 3.0
+    found = importance(
+        stored(tmp_path / "d", {"a": a.tolist(), "b": b.tolist(), "y(f)": f.tolist()}, given), "y(f)"
+    )
+    blocks = f.reshape(4, 1, 512)
+    theirs = sobol_indices(func={"f_A": blocks[0], "f_B": blocks[1], "f_AB": blocks[2:]}, n=512)
+    np.testing.assert_allclose([i.first for i in found], np.ravel(theirs.first_order), atol=0.02)
+    np.testing.assert_allclose([i.total for i in found], np.ravel(theirs.total_order), atol=0.02)
