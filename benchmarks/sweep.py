@@ -51,7 +51,7 @@ def main() -> None:
     if given.part is not None:
         print(json.dumps(PARTS[given.part](given.quick)))
         return
-    found = {
+    found: dict[str, Any] = {
         name: fresh_json(["-m", "benchmarks.sweep", "--part", name, *(["--quick"] * given.quick)])
         for name in PARTS
     }
