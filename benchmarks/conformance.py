@@ -35,7 +35,7 @@ PILOTS = (1e-4, 1e-6)  # relative tolerances of the runs that find magnitudes
 UNKNOWN = (1.0, 1e-6, 1e-12)  # magnitudes to try for a variable that starts at zero
 LOST = 1e-14  # of its largest value: what is left of a variable below this is of no account
 VALUE_TUBE, TIME_TUBE = 1e-3, 2e-3  # shares of a signal's range and of the time span
-LIBRARY = ("blocks", "electrical", "mechanics", "rotational", "thermal", "translational")
+LIBRARY = ("blocks", "circuits", "electrical", "mechanics", "rotational", "thermal", "translational")
 NOT_BUILT = "not built"
 Tube = tuple[float, float]
 
@@ -105,14 +105,14 @@ def end_values(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
 def tube(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
     """Simulate an example of the Modelica Standard Library; the largest share of samples out of the tube."""
     model = library_cases()[case["name"]]
-    options = model.options
-    solution = translate(model.model()).simulate(model.stop_time, options=options)
     times, columns = read_reference(folder / case["reference"]["file"])
+    solution = translate(model.model()).simulate(float(times[-1]), options=model.options)
     shares = {}
     for signal, values in columns.items():
-        if signal not in model.signals:
+        path = model.path(signal, solution)
+        if path is None:
             return 1.0, f"no variable for the signal {signal}"
-        own = np.asarray(solution[model.signals[signal]])
+        own = np.asarray(solution[path])
         shares[signal] = out_of_tube(times, values, np.asarray(solution.t), own)
     worst = max(shares, key=shares.__getitem__)
     return shares[worst], f"worst: {worst}" if shares[worst] else model.note

@@ -79,6 +79,11 @@ from arthur_acausal.components.blocks.sources import (
     Trapezoid,
 )
 from arthur_acausal.components.blocks.tables import Table1D, Table2D
+from arthur_acausal.components.blocks.varying import (
+    CosineVariableFrequencyAndAmplitude,
+    Sinc,
+    SineVariableFrequencyAndAmplitude,
+)
 
 __all__ = [
     "PI",
@@ -98,6 +103,7 @@ __all__ = [
     "Constant",
     "Cos",
     "Cosine",
+    "CosineVariableFrequencyAndAmplitude",
     "CriticalDamping",
     "DeadZone",
     "Derivative",
@@ -138,7 +144,9 @@ __all__ = [
     "SecondOrder",
     "Sign",
     "Sin",
+    "Sinc",
     "Sine",
+    "SineVariableFrequencyAndAmplitude",
     "SlewRateLimiter",
     "Source",
     "Sqrt",

@@ -12,7 +12,15 @@ from casadi import SX
 
 from arthur_acausal import Equations, Real, discrete, if_else, parameter, pre, real_output, time, when
 from arthur_acausal.components.blocks.signal import Source
-from arthur_acausal.components.blocks.waveforms import after, exp_sine, piecewise_linear, pulse, ramp, sine
+from arthur_acausal.components.blocks.waveforms import (
+    after,
+    exp_sine,
+    piecewise_linear,
+    pulse,
+    ramp,
+    sine,
+    trapezoid,
+)
 
 
 class Constant(Source):
@@ -153,15 +161,9 @@ class Trapezoid(Source):
     T_0: Real = discrete("s", start=lambda self: self.start_time)
 
     def equations(self) -> Equations:
-        t, T_0 = time(), self.T_0
-        yield when(t >= T_0 + self.period, T_0 == pre(T_0) + self.period)
-        end_rise = T_0 + self.rising
-        end_width = end_rise + self.width
-        end_fall = end_width + self.falling
-        falling = if_else(t < end_fall, (end_fall - t) / self.falling, 0)
-        level = if_else(t < end_width, 1, falling)
-        shape = if_else(t < end_rise, (t - T_0) / self.rising, level)
-        yield self.y == self.offset + self.amplitude * if_else(t < self.start_time, 0, shape)
+        yield when(time() >= self.T_0 + self.period, self.T_0 == pre(self.T_0) + self.period)
+        shape = trapezoid(self.start_time, self.T_0, self.rising, self.width, self.falling)
+        yield self.y == self.offset + self.amplitude * shape
 
 
 class KinematicPTP(Source):

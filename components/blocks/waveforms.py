@@ -47,3 +47,13 @@ def piecewise_linear(x: SX, xs: Sequence[float], ys: Sequence[float], events: bo
     for (x0, y0), (x1, y1) in reversed(list(pairwise(points))):
         shape = choose(x < x1, y0 + (y1 - y0) * (x - x0) / (x1 - x0), shape)
     return choose(x < xs[0], ys[0], shape)
+
+
+def trapezoid(start: SX, begun: SX, rising: SX, width: SX, falling: SX) -> SX:
+    """Return a trapezoid from 0 to 1 and back, that began at ``begun`` [s]; every corner is an event."""
+    t, end_rise = time(), begun + rising
+    end_width = end_rise + width
+    end_fall = end_width + falling
+    fall = if_else(t < end_fall, (end_fall - t) / falling, 0)
+    level = if_else(t < end_width, 1, fall)
+    return after(start, if_else(t < end_rise, (t - begun) / rising, level))

@@ -11,6 +11,7 @@ from arthur_acausal.components.electrical.basic import (
     SaturatingInductor,
     VariableResistor,
 )
+from arthur_acausal.components.electrical.bipolar import HeatingNPN, HeatingPNP
 from arthur_acausal.components.electrical.coupled import (
     EMF,
     CurrentControlledCurrentSource,
@@ -29,8 +30,15 @@ from arthur_acausal.components.electrical.ideal import (
     IdealThyristor,
     IdealZener,
 )
+from arthur_acausal.components.electrical.mos import NMOS, PMOS
 from arthur_acausal.components.electrical.pin import FourPin, HeatingTwoPin, Pin, TwoPin
-from arthur_acausal.components.electrical.semiconductors import NPN, Diode, HeatingDiode, ZenerDiode
+from arthur_acausal.components.electrical.semiconductors import (
+    NPN,
+    ChuaDiode,
+    Diode,
+    HeatingDiode,
+    ZenerDiode,
+)
 from arthur_acausal.components.electrical.sensors import (
     CurrentSensor,
     PotentialSensor,
@@ -56,15 +64,29 @@ from arthur_acausal.components.electrical.sources import (
     StepVoltage,
     TableCurrent,
     TableVoltage,
+    TrapezoidVoltage,
+)
+from arthur_acausal.components.electrical.switches import (
+    CloserWithArc,
+    ControlledCloserWithArc,
+    ControlledIdealClosingSwitch,
+    IdealTriac,
+    IdealTwoWaySwitch,
 )
 
 __all__ = [
     "EMF",
+    "NMOS",
     "NPN",
+    "PMOS",
     "Capacitor",
+    "ChuaDiode",
+    "CloserWithArc",
     "Conductor",
     "ConstantCurrent",
     "ConstantVoltage",
+    "ControlledCloserWithArc",
+    "ControlledIdealClosingSwitch",
     "CosineCurrent",
     "CosineVoltage",
     "CurrentControlledCurrentSource",
@@ -77,6 +99,8 @@ __all__ = [
     "Ground",
     "Gyrator",
     "HeatingDiode",
+    "HeatingNPN",
+    "HeatingPNP",
     "HeatingResistor",
     "HeatingTwoPin",
     "IdealClosingSwitch",
@@ -87,6 +111,8 @@ __all__ = [
     "IdealOpeningSwitch",
     "IdealThyristor",
     "IdealTransformer",
+    "IdealTriac",
+    "IdealTwoWaySwitch",
     "IdealZener",
     "Inductor",
     "OpAmp",
@@ -108,6 +134,7 @@ __all__ = [
     "TableCurrent",
     "TableVoltage",
     "Transformer",
+    "TrapezoidVoltage",
     "TwoPin",
     "VariableResistor",
     "VoltageControlledCurrentSource",

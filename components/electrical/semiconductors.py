@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from casadi import SX, exp, fmin
+from casadi import SX, exp, fmax, fmin
 
 from arthur_acausal import Component, Equations, Real, parameter, smooth_if_else, variable
-from arthur_acausal.components.electrical.pin import HeatingTwoPin, Pin
+from arthur_acausal.components.electrical.pin import HeatingTwoPin, Pin, TwoPin
 
 
 def exp_linear(x: SX, limit: SX) -> SX:
@@ -80,6 +80,23 @@ class ZenerDiode(HeatingTwoPin):
         forward = self.Ids * (exp_linear(self.v / self.Vt, self.max_exp) - 1)
         back = self.Ibv * exp_linear(-(self.v + self.Bv) / (self.Nbv * self.Vt), self.max_exp)
         yield "Zener's law", self.i == forward - back + self.v / self.R
+
+
+class ChuaDiode(TwoPin):
+    """A resistor of negative conductance: i = G_a v within -V_e..V_e, beyond with the slope G_b.
+
+    Kennedy, Three steps to chaos I, IEEE Transactions on Circuits and Systems I 40 (1993), 640. ``G_a``, ``G_b`` [S],
+    ``V_e`` [V]. Continuous: no event.
+    """
+
+    G_a: Real = parameter("S", description="inner conductance")
+    G_b: Real = parameter("S", description="outer conductance")
+    V_e: Real = parameter("V", default=1.0, min=0.0, description="end of the inner range")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        inner = fmin(fmax(self.v, -self.V_e), self.V_e)
+        yield "characteristic", self.i == self.G_b * self.v + (self.G_a - self.G_b) * inner
 
 
 class NPN(Component):

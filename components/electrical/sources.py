@@ -11,7 +11,15 @@ from math import pi
 from casadi import SX
 
 from arthur_acausal import Equations, Real, discrete, parameter, pre, real_input, time, when
-from arthur_acausal.components.blocks.waveforms import after, exp_sine, piecewise_linear, pulse, ramp, sine
+from arthur_acausal.components.blocks.waveforms import (
+    after,
+    exp_sine,
+    piecewise_linear,
+    pulse,
+    ramp,
+    sine,
+    trapezoid,
+)
 from arthur_acausal.components.electrical.pin import TwoPin
 
 
@@ -144,6 +152,30 @@ class PulseVoltage(VoltageSource):
 
     def level(self) -> SX:
         return self.offset + self.V * pulse(self.start_time, self.T_0, self.duty * self.period)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield when(time() >= self.T_0 + self.period, self.T_0 == pre(self.T_0) + self.period)
+
+
+class TrapezoidVoltage(VoltageSource):
+    """v = offset, and from ``start_time`` [s] on each ``period`` a trapezoid up to offset + V. Events.
+
+    ``rising``, ``width``, ``falling`` [s]: up, at the top, down. ``T_0`` [s]: the start of the current period.
+    """
+
+    V: Real = parameter("V", default=1.0)
+    rising: Real = parameter("s", default=0.0, min=0.0)
+    width: Real = parameter("s", default=0.5, min=0.0)
+    falling: Real = parameter("s", default=0.0, min=0.0)
+    period: Real = parameter("s", default=1.0, min=0.0)
+    start_time: Real = parameter("s", default=0.0)
+    offset: Real = parameter("V", default=0.0)
+    T_0: Real = discrete("s", start=lambda self: self.start_time)
+
+    def level(self) -> SX:
+        shape = trapezoid(self.start_time, self.T_0, self.rising, self.width, self.falling)
+        return self.offset + self.V * shape
 
     def equations(self) -> Equations:
         yield from super().equations()
