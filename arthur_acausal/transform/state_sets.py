@@ -74,21 +74,14 @@ class StateSets:
 
 
 def pivots(matrix: FloatArray) -> tuple[list[int], FloatArray]:
-    """Return the columns in the order of QR with column pivoting, and the diagonal of R."""
-    rest = matrix.copy()
-    order: list[int] = []
-    diagonal: list[float] = []
-    for _ in range(min(matrix.shape)):
-        norms = np.einsum("ij,ij->j", rest, rest)
-        norms[order] = -1.0
-        best = int(np.argmax(norms))
-        size = float(np.sqrt(norms[best]))
-        order.append(best)
-        diagonal.append(size)
-        if size > 0.0:
-            q = rest[:, best] / size
-            rest -= np.outer(q, q @ rest)
-    return order + [k for k in range(matrix.shape[1]) if k not in order], np.array(diagonal)
+    """Return the columns in the order of QR with column pivoting, and the size of R's diagonal."""
+    from scipy.linalg.lapack import dgeqp3
+
+    count = min(matrix.shape)
+    if not count:
+        return list(range(matrix.shape[1])), np.zeros(0)
+    factors, order = dgeqp3(matrix)[:2]
+    return (order - 1).tolist(), np.abs(np.diagonal(factors))[:count]
 
 
 def state_sets(
