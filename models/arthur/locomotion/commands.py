@@ -71,7 +71,8 @@ class Table:
     commands: tuple[Command, ...]
 
     def __post_init__(self) -> None:
-        ascending = all(a < b for a, b in zip(self.times, self.times[1:], strict=False))
+        finite = all(isfinite(t) for t in self.times)
+        ascending = finite and all(a < b for a, b in zip(self.times, self.times[1:], strict=False))
         if not self.times or len(self.times) != len(self.commands) or not ascending:
             raise UsageError(
                 "the times of a table of commands must ascend, one for each command",
@@ -89,29 +90,34 @@ def read_commands(path: str | Path) -> Table:
     ------
     UsageError : names the line and the column that is not understood.
     """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as cause:
+        raise UsageError(f"{path} is not read: {cause}", remedy="give a CSV file in UTF-8") from cause
+    header, *lines = [row for row in csv.reader(text.splitlines()) if row] or [[]]
+    names = [name.strip() for name in header]
+    if "t" not in names or len(set(names)) < len(names) or set(names) - {"t", "gait", *NUMBERS}:
+        raise UsageError(
+            f"{path}: the columns are {names}",
+            remedy=f"have a column t and any of {', '.join(NUMBERS)}, gait",
+        )
     times, commands = [], []
-    with Path(path).open(newline="", encoding="utf-8") as file:
-        reader = csv.DictReader(file)
-        strangers = set(reader.fieldnames or ()) - {"t", "gait", *NUMBERS}
-        if strangers or "t" not in (reader.fieldnames or ()):
+    for row, line in enumerate(lines, start=1):
+        if len(line) != len(names):
             raise UsageError(
-                f"{path}: the columns are {reader.fieldnames}",
-                remedy=f"have a column t and any of {', '.join(NUMBERS)}, gait",
+                f"{path}: row {row} has {len(line)} cells, not {len(names)}",
+                remedy="give a cell for each column",
             )
-        for row in reader:
-            values = {
-                name: _number(row[name], f"{path}:{reader.line_num}: {name}")
-                for name in row
-                if name != "gait"
-            }
-            times.append(values.pop("t"))
-            gait = {"gait": row["gait"].strip()} if "gait" in row else {}
-            commands.append(Command(**values, **gait))  # type: ignore[arg-type]
+        cells = dict(zip(names, (cell.strip() for cell in line), strict=True))
+        gait = cells.pop("gait", "trot")
+        numbers = {name: _number(cell, f"{path}: row {row}: {name}") for name, cell in cells.items()}
+        times.append(numbers.pop("t"))
+        commands.append(Command(**numbers, gait=gait))
     return Table(tuple(times), tuple(commands))
 
 
-def _number(text: str | None, place: str) -> float:
+def _number(text: str, place: str) -> float:
     try:
-        return float(text or "")
+        return float(text)
     except ValueError as cause:
         raise UsageError(f"{place} is {text!r}", remedy="write a number") from cause

@@ -26,14 +26,18 @@ def test_a_file_gives_commands_that_hold(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("t,v_x\n0,fast\n", r"commands.csv:2: v_x is 'fast'"),
+        ("t,v_x\n0,fast\n", "commands.csv: row 1: v_x is 'fast'"),
         ("t,speed\n0,1\n", r"the columns are \['t', 'speed'\]"),
         ("t,gait\n0,gallop\n", "there is no gait 'gallop'"),
         ("t,height\n0,-1\n", "must be positive"),
         ("t,v_x\n0,nan\n", "not finite"),
         ("t,v_x\n1,0\n0,0\n", "must ascend"),
         ("t,v_x\n", "must ascend"),
-        ("t,v_x\n0\n", "v_x is None"),
+        ("t,v_x\n0\n", "row 1 has 1 cells, not 2"),
+        ("t,gait\n0,trot,9\n", "row 1 has 3 cells, not 2"),
+        ("t,t\n0,1\n", "the columns are"),
+        ("t\nnan\n", "must ascend"),
+        ("", "the columns are"),
     ],
 )
 def test_what_is_refused(tmp_path: Path, text: str, message: str) -> None:
@@ -46,3 +50,8 @@ def test_what_is_refused(tmp_path: Path, text: str, message: str) -> None:
 def test_a_table_has_a_time_for_each_command() -> None:
     with pytest.raises(UsageError, match="one for each command"):
         Table((0.0, 1.0), (Command(),))
+
+
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="is not read"):
+        read_commands(tmp_path / "none.csv")
