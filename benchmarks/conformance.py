@@ -26,6 +26,7 @@ from arthur_acausal.models.conformance.case import Case
 from arthur_acausal.models.conformance.hopsan import Assembly, Reader
 from benchmarks.chains import cascaded_first_order, harmonic_oscillator, many_events
 from benchmarks.hydraulics import SOLVERS as HYDRAULIC
+from benchmarks.mujoco_cases import double_pendulum, free_rigid_body
 from benchmarks.text_problem import TextError, problem
 
 FloatArray = NDArray[np.float64]
@@ -210,6 +211,8 @@ def bounces(case: Mapping[str, Any], folder: Path) -> tuple[float, str]:
 
 SOLVERS: dict[str, Callable[[Mapping[str, Any], Path], tuple[float, str]]] = {
     "ev_bouncing_ball": bounces,
+    "mj_double_pendulum": double_pendulum,
+    "mj_free_rigid_body": free_rigid_body,
     "scal_CascadedFirstOrder": cascaded_first_order,
     "scal_HarmonicOscillator": harmonic_oscillator,
     "scal_ManyEvents": many_events,
