@@ -127,6 +127,7 @@ class Controller:
 
     def _place_feet(self, command: Command, state: Estimate) -> None:
         """Begin the swing of legs that lift: foot placement (7.8) and the ends of the trajectory (7.11)."""
+        self._height[self._stance] = command.swing_height
         lifting = [i for i, leg in enumerate(self._legs) if leg.e_sw]
         if not lifting:
             return
@@ -138,7 +139,6 @@ class Controller:
             self._v_0[i] = self._ground_velocity(state, state.foot[i])
             self._v_1[i] = self._ground_velocity(state, there[i])
             self._v_1[i, 2] += self.configuration.settings.touch_down
-            self._height[i] = command.swing_height
 
     def _landings(self, state: Estimate, velocity: FloatArray) -> FloatArray:
         """Return where the feet's centres shall land, in the trunk's frame (4, 3); ``velocity`` in the level frame."""
