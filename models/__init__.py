@@ -6,6 +6,7 @@
 REGISTRY: dict[str, str] = {
     "arthur.powertrain": "arthur_acausal.models.arthur.powertrain:Powertrain",
     "arthur.demo": "arthur_acausal.models.arthur.demo:Demo",
+    "arthur.quadruped": "arthur_acausal.models.arthur.quadruped:Quadruped",
     "examples.bouncing_ball": "arthur_acausal.models.examples.bouncing_ball:BouncingBall",
     "examples.rc_ladder": "arthur_acausal.models.examples.rc_ladder:RCLadder",
     "examples.jack": "arthur_acausal.models.examples.jack:Jack",
@@ -23,6 +24,7 @@ REGISTRY: dict[str, str] = {
 DESCRIPTIONS: dict[str, str] = {
     "arthur.powertrain": "hydraulic powertrain of the ARTHuR quadruped, with external inputs",
     "arthur.demo": "the powertrain under twelve trot-like current profiles, from its cold start",
+    "arthur.quadruped": "the whole robot: battery, hydraulics, MuJoCo's rigid bodies, locomotion controller",
     "examples.bouncing_ball": "state events and reinit",
     "examples.rc_ladder": "a chain of n resistors and capacitors",
     "examples.jack": "pressure source, orifice, ram and mass",

@@ -161,6 +161,12 @@ def picture(model: object, solution: Solution) -> Figure:
     return solution.plot(first_of_each_unit(solution, states or solution.paths))
 
 
+def figures(model: object, solution: Solution) -> dict[str, Any]:
+    """The model's own figures of a run where it has some (`figures`)."""
+    own = getattr(model, "figures", None)
+    return {} if own is None else dict(own(solution))
+
+
 def first_of_each_unit(solution: Solution, paths: Sequence[str]) -> list[str]:
     """As many of the paths as fit into one picture."""
     from arthur_acausal.result.panel import MOST_LINES
@@ -177,6 +183,7 @@ def told(request: Request, translation: Translation, solution: Solution, written
     verified = translation.verify(solution) if request.verify else None
     if request.as_json:
         extras: dict[str, Any] = {"translation_s": translation_s}
+        extras |= figures(translation.model, solution)
         if verified is not None:
             extras["verify"] = {"worst": verified.largest, "path": verified.path}
         if request.power:

@@ -1,0 +1,97 @@
+"""The whole robot: it starts standing in balance, keeps its energy, and says when it falls."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from arthur_acausal import Solution, SolverOptions, Translation, translate
+from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimensions
+from arthur_acausal.models.arthur.figures import attitude, contact_speeds
+from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
+from arthur_acausal.models.arthur.quadruped import Quadruped
+
+WEIGHT = Dimensions().mass * 9.81
+QPOS = [f"base_{x}" for x in ("x", "y", "z", "q_w", "q_x", "q_y", "q_z")] + [f"{j}_phi" for j in JOINT_NAMES]
+
+
+@cache
+def robot() -> Translation:
+    return translate(Quadruped(audit=True))
+
+
+@cache
+def standing() -> Solution:
+    """A tenth of a second of standing."""
+    return robot().simulate(0.1, options=SolverOptions(rtol=1e-5, intervals=5))
+
+
+def initial(name: str) -> float:
+    return standing().initial(name)
+
+
+def test_it_starts_in_balance() -> None:
+    """MuJoCo's inverse dynamics needs just the torques of the cylinders, and no force on the trunk."""
+    model = mujoco.MjModel.from_xml_string(quadruped_mjcf())
+    data = mujoco.MjData(model)
+    data.qpos[:] = [initial(f"body.{name}") for name in QPOS]
+    mujoco.mj_inverse(model, data)
+    assert data.qfrc_inverse[:6] == pytest.approx(np.zeros(6), abs=1e-4)
+    torques = [initial(f"actuators[{i}].linkage.tau") for i in range(12)]
+    assert data.qfrc_inverse[6:] == pytest.approx(torques, abs=1e-6)
+    assert sum(initial(f"body.sensor_{leg}_touch") for leg in LEGS) == pytest.approx(WEIGHT, rel=1e-5)
+
+
+def test_it_starts_under_pressure() -> None:
+    assert initial("unit.manifold.p") == pytest.approx(135e5)
+    for i in range(12):
+        p_A, p_B = (initial(f"actuators[{i}].cylinder.p_{side}") for side in "AB")
+        assert p_A + p_B == pytest.approx(initial("actuators[0].p_s.p") + initial("actuators[0].p_t.p"))
+        push = initial(f"actuators[{i}].cylinder.A_A") * p_A - initial(f"actuators[{i}].cylinder.A_B") * p_B
+        assert push == pytest.approx(initial(f"actuators[{i}].linkage.f"), abs=1e-6)
+
+
+def test_it_stands() -> None:
+    run = standing()
+    assert np.ptp(run["body.base_z"]) < 1e-4
+    assert np.abs(np.degrees(attitude(run))).max() < 0.1
+    assert contact_speeds(run).max() < 0.01
+    assert run["unit.manifold.p"] == pytest.approx(135e5, rel=0.01)
+
+
+def test_energy() -> None:
+    """Standing takes what leaks and what warms the windings."""
+    energy = standing().energy()
+    assert abs(energy.closure) < 1e-4
+    assert energy.losses_J["copper"] + energy.losses_J["pump_leakage"] > 0.8 * energy.input_J
+    assert abs(energy.work_J) < 1e-3 * energy.input_J
+
+
+def test_unknowns() -> None:
+    """Five an actuator, seven of the unit, 37 of the body; two are implicit."""
+    report = translate(Quadruped()).report
+    assert len(report.states) == 12 * 5 + 7 + 37
+    assert report.torn == ["unit.motor.I", "unit.filter.p_s"]
+
+
+class Limp:
+    """Asks for no force."""
+
+    def fresh(self) -> Limp:
+        return self
+
+    def __call__(self, t: float, sensors: Any) -> Any:
+        return np.concatenate([np.zeros(24), np.full(12, t), np.zeros(11)])
+
+
+def test_a_fall_ends_the_run_and_is_told() -> None:
+    model = translate(Quadruped(controller=Limp()))
+    run = model.simulate(1.0, options=SolverOptions(rtol=1e-3, intervals=10))
+    assert run.run.status == "terminated"
+    assert "fell" in run.run.message
+    assert model.model.figures(run)["locomotion"]["fell"]  # type: ignore[attr-defined]
+    assert run.t[-1] < 0.5
