@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from arthur_acausal.cli.app import Debug, Input, Json, Set, Start, app
+from arthur_acausal.cli.app import Debug, Input, Json, Model, Set, Start, app
 from arthur_acausal.cli.failure import reported
 
 __all__ = ["app"]
@@ -220,3 +220,97 @@ def importance(
     from arthur_acausal.cli.looking import importance as carry_out
 
     typer.echo(carry_out(folder, of, as_json))
+
+
+Ranges = Annotated[
+    list[str],
+    typer.Option("--vary", metavar="PATH=LOW:HIGH", help="What is searched, and where. Repeatable."),
+]
+Results = Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Where every run is kept.")]
+Stop = Annotated[
+    str | None, typer.Option("-t", "--stop-time", metavar="TIME", help="s, or with a unit (200ms).")
+]
+Workers = Annotated[
+    int | None, typer.Option("-j", "--jobs", metavar="N", help="Processes; default: one a core.")
+]
+Tolerance = Annotated[
+    float | None, typer.Option("--rtol", metavar="TOL", help="Relative tolerance; default 1e-6.")
+]
+
+
+@app.command()
+@reported
+def fit(
+    model: Model,
+    measured: Annotated[Path, typer.Argument(metavar="FILE.csv", help="Columns: time [s], and SI values.")],
+    vary: Ranges,
+    match: Annotated[
+        list[str], typer.Option("--match", metavar="VARIABLE=COLUMN", help="What is compared. Repeatable.")
+    ],
+    output: Results,
+    stop: Stop = None,
+    settings: Set = None,
+    inputs: Input = None,
+    starts: Start = None,
+    rtol: Tolerance = None,
+    workers: Workers = None,
+    as_json: Json = False,
+    debug: Debug = False,
+) -> None:
+    """Fit parameters to measurements by least squares."""
+    from arthur_acausal.cli.searching import fit as carry_out
+    from arthur_acausal.cli.sweep import Request
+
+    request = Request(
+        model,
+        vary=vary,
+        settings=settings or (),
+        inputs=inputs or (),
+        starts=starts or (),
+        scalars={"stop_time": stop, "tolerance": rtol},
+        workers=workers,
+    )
+    typer.echo(carry_out(request, measured, match, output, as_json))
+
+
+@app.command()
+@reported
+def optimize(
+    model: Model,
+    vary: Ranges,
+    output: Results,
+    minimize: Annotated[
+        str | None, typer.Option("--minimize", metavar="REDUCTION", help="Such as max(ram.p).")
+    ] = None,
+    maximize: Annotated[str | None, typer.Option("--maximize", metavar="REDUCTION", help="Likewise.")] = None,
+    limits: Annotated[
+        Many, typer.Option("--limit", metavar="LIMIT", help="Such as 'max(ram.p) < 2e7', in SI. Repeatable.")
+    ] = None,
+    population: Annotated[
+        int, typer.Option("--population", metavar="N", help="Points of a generation for each unknown.")
+    ] = 10,
+    generations: Annotated[int, typer.Option("--generations", metavar="N", help="At most.")] = 30,
+    stop: Stop = None,
+    settings: Set = None,
+    inputs: Input = None,
+    starts: Start = None,
+    rtol: Tolerance = None,
+    seed: Annotated[int | None, typer.Option("--seed", metavar="N", help="Of the search.")] = None,
+    workers: Workers = None,
+    as_json: Json = False,
+    debug: Debug = False,
+) -> None:
+    """Find the parameters for which a reduction is least or greatest."""
+    from arthur_acausal.cli.searching import optimize as carry_out
+    from arthur_acausal.cli.sweep import Request
+
+    request = Request(
+        model,
+        vary=vary,
+        settings=settings or (),
+        inputs=inputs or (),
+        starts=starts or (),
+        scalars={"stop_time": stop, "tolerance": rtol, "seed": seed},
+        workers=workers,
+    )
+    typer.echo(carry_out(request, minimize, maximize, limits or (), output, population, generations, as_json))

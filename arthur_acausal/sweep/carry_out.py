@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
@@ -98,7 +99,7 @@ def _fill(plan: Plan, store: Store, how: How, watch: Watch | None, begun: float)
     tally = Tally(len(mine), kept=len(mine) - len(missing))
     tally.ok = sum(finished.get(run.number) in GOOD for run in mine)
     tally.failed = tally.kept - tally.ok
-    with _backend(how, len(missing)) as start:
+    with backend(how, len(missing)) as start:
         broken: list[tuple[Task | None, Run, str]] = []
         columns: dict[int, dict[str, float | str]] = {}
 
@@ -113,7 +114,7 @@ def _fill(plan: Plan, store: Store, how: How, watch: Watch | None, begun: float)
 
         pending = tasks()
         for task, outcome in start(lambda: next(pending, None)):
-            row = _row(task.number, columns.pop(task.number), outcome, task.attempts)
+            row = row_of(task.number, columns.pop(task.number), outcome, task.attempts)
             store.add(row, outcome.trajectory, task.number)
             tally.add(task, outcome)
             _flush(broken, store, tally, plan)
@@ -132,7 +133,7 @@ def _flush(broken: list[tuple[Task | None, Run, str]], store: Store, tally: Tall
         _, run, error = broken.pop(0)
         columns = {path: value for path, value in run.values.items() if isinstance(value, float)}
         outcome = Outcome("failed", error)
-        store.add(_row(run.number, columns, outcome, 0), None, run.number)
+        store.add(row_of(run.number, columns, outcome, 0), None, run.number)
         tally.failed += 1
         tally.last = error
         cause = error.partition("\n")[0]
@@ -143,7 +144,7 @@ def _in_shard(run: Run, shard: tuple[int, int] | None) -> bool:
     return shard is None or run.number % shard[1] == shard[0] - 1
 
 
-def _row(number: int, columns: Mapping[str, float | str], outcome: Outcome, attempts: int) -> Row:
+def row_of(number: int, columns: Mapping[str, float | str], outcome: Outcome, attempts: int) -> Row:
     """Return one row of the table; the columns are described in docs/sweeps.md."""
     return {
         "run": number,
@@ -214,25 +215,20 @@ def about(plan: Plan) -> dict[str, Any]:
 Start = Callable[[Callable[[], "Task | None"]], Iterable[tuple[Task, Outcome]]]
 
 
-class _backend:  # noqa: N801
-    """A context that gives a function from where tasks come to what comes of them."""
+@contextmanager
+def backend(how: How, tasks: int) -> Iterator[Start]:
+    """Give a function from where tasks come to what comes of them, carried out as ``how`` says."""
+    if not how.scheduler:
+        from arthur_acausal.sweep.pool import Crew
 
-    def __init__(self, how: How, tasks: int) -> None:
-        self._how, self._tasks = how, tasks
-        self._close: Callable[[], None] | None = None
+        workers = max(1, min(how.workers or os.cpu_count() or 1, tasks))
+        with Crew(workers, how.timeout, how.retry) as crew:
+            yield crew.run
+        return
+    from arthur_acausal.sweep.cluster import connect, run_on_cluster
 
-    def __enter__(self) -> Start:
-        how = self._how
-        if not how.scheduler:
-            from arthur_acausal.sweep.pool import run_local
-
-            workers = max(1, min(how.workers or os.cpu_count() or 1, self._tasks))
-            return lambda take: run_local(take, workers, how.timeout, how.retry)
-        from arthur_acausal.sweep.cluster import connect, run_on_cluster
-
-        client, self._close = connect(how.scheduler, how.workers)
-        return lambda take: run_on_cluster(client, take, how.timeout, how.retry)
-
-    def __exit__(self, *_: object) -> None:
-        if self._close is not None:
-            self._close()
+    client, close = connect(how.scheduler, how.workers)
+    try:
+        yield lambda take: run_on_cluster(client, take, how.timeout, how.retry)
+    finally:
+        close()

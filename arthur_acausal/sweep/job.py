@@ -38,6 +38,7 @@ class Job:
     variables : paths whose trajectories are kept.
     reductions : columns of the table.
     parameters, inputs, start : fixed values by path, SI; inputs may be signals.
+    times : of the trajectories in place of ``interval``, s.
     trusted : modules of the user that sampled functions and reductions may come from.
     folders : where these modules are found.
     """
@@ -55,12 +56,15 @@ class Job:
     parameters: Mapping[str, float]
     inputs: Mapping[str, float | Signal]
     start: Mapping[str, float]
+    times: tuple[float, ...] = ()
     trusted: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
 
     @cached_property
     def grid(self) -> NDArray[np.float64]:
         """The times of the trajectories that are kept, s."""
+        if self.times:
+            return np.array(self.times)
         count = max(1, round((self.stop_time - self.start_time) / self.interval))
         return np.linspace(self.start_time, self.stop_time, count + 1)
 
@@ -80,7 +84,7 @@ class Job:
     def restored(cls, system: bytes, settings: str) -> Job:
         """Return the job again from what `system` and `settings` gave."""
         data = json.loads(settings)
-        data["variables"] = tuple(data["variables"])
+        data["variables"], data["times"] = tuple(data["variables"]), tuple(data["times"])
         data["reductions"] = tuple(Reduction(**r) for r in data["reductions"])
         data["trusted"], data["folders"] = tuple(data["trusted"]), tuple(data["folders"])
         data["inputs"] = {path: _input(value) for path, value in data["inputs"].items()}

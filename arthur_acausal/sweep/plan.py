@@ -39,19 +39,20 @@ class Plan:
     ----------
     specification, folder : what was asked for, and where its files stand.
     find : name of a model -> its class.
-    runs : in order.
+    chosen : runs in place of those of the specification's design, where a search asks for them one by one.
     """
 
     specification: Specification
     folder: Path
     find: Callable[[str], type[Any]]
+    chosen: Sequence[Run] = ()
     _structures: dict[Structure, _Prepared] = field(default_factory=dict)
     _names: dict[str, set[str]] = field(default_factory=dict)
 
     @cached_property
     def runs(self) -> list[Run]:
-        """Every run with what varies."""
-        return runs(self.specification, self.folder)
+        """Every run with what varies, in order."""
+        return list(self.chosen) or runs(self.specification, self.folder)
 
     @property
     def factors(self) -> list[str]:
@@ -202,7 +203,8 @@ def _mode(plan: Plan) -> str:
     """Compile also what is too small for it to pay in a single run."""
     from arthur_acausal.codegen.kernel import compiler
 
-    return "often" if len(plan.runs) >= WORTH_COMPILING and compiler() is not None else "auto"
+    many = bool(plan.chosen) or len(plan.runs) >= WORTH_COMPILING
+    return "often" if many and compiler() is not None else "auto"
 
 
 def _job(plan: Plan, translation: Translation, model: Any, found: _Found) -> Job:

@@ -33,40 +33,65 @@ class _Worker:
     since: float = 0.0  # when that began, s
 
 
-def run_local(take: Take, workers: int, timeout: float | None, retry: int) -> Iterator[tuple[Task, Outcome]]:
-    """Yield what comes of each task, in the order in which they end.
+class Crew:
+    """Worker processes, for as long as the ``with`` block lasts; they start when there is work for them.
 
     Parameters
     ----------
-    take : gives the next task, None when there is no more.
     workers : how many processes.
     timeout : s of wall time that a run may take.
     retry : how often the run of a worker that died is tried again.
     """
-    crew: list[_Worker] = []
-    again: deque[Task] = deque()
-    exhausted = False
-    try:
-        while True:
-            while len(crew) < workers and not (exhausted and not again and not _waiting(crew, workers)):
-                crew.append(_start())
-            for worker in sorted(crew, key=lambda w: len(w.tasks)):
-                while (len(worker.tasks) < AHEAD and not exhausted) or (again and len(worker.tasks) < AHEAD):
-                    task = again.popleft() if again else take()
-                    if task is None:
-                        exhausted = True
-                        break
-                    _give(worker, task, timeout)
-            if exhausted and not again and not any(w.tasks for w in crew):
-                return
-            yield from _collect(crew, again, timeout, retry)
-    finally:
-        for worker in crew:
+
+    def __init__(self, workers: int, timeout: float | None, retry: int) -> None:
+        self._size, self._timeout, self._retry = workers, timeout, retry
+        self._workers: list[_Worker] = []
+
+    def __enter__(self) -> Crew:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for worker in self._workers:
             _stop(worker)
+        self._workers.clear()
 
+    def run(self, take: Take) -> Iterator[tuple[Task, Outcome]]:
+        """Yield what comes of each task, in the order in which they end; ``take`` gives the next one, or None."""
+        again: deque[Task] = deque()
+        exhausted = False
+        while True:
+            exhausted = self._hand_out(take, again, exhausted)
+            if not again and not any(worker.tasks for worker in self._workers):
+                return
+            yield from _collect(self._workers, again, self._timeout, self._retry)
 
-def _waiting(crew: list[_Worker], workers: int) -> bool:
-    return sum(len(w.tasks) for w in crew) >= workers > len(crew)
+    def _hand_out(self, take: Take, again: deque[Task], exhausted: bool) -> bool:
+        """Give each worker its next tasks, those with the fewest first; return whether there are no more."""
+        while True:
+            if len(self._workers) < self._size and all(w.tasks for w in self._workers):
+                task = again.popleft() if again else None if exhausted else take()
+                if task is not None:
+                    self._workers.append(_start())
+                    _give(self._workers[-1], task)
+                    self._send(self._workers[-1], task)
+                    continue
+                exhausted = True
+            worker = min(self._workers, key=lambda w: len(w.tasks), default=None)
+            if worker is None or len(worker.tasks) >= AHEAD:
+                return exhausted
+            task = again.popleft() if again else None if exhausted else take()
+            if task is None:
+                return True
+            _give(worker, task)
+            self._send(worker, task)
+
+    def _send(self, worker: _Worker, task: Task) -> None:
+        content = None
+        if task.job.digest not in worker.known:
+            worker.known.add(task.job.digest)
+            content = (task.job.system, task.job.settings)
+        with suppress(OSError):  # it has just died: that shows when its pipe is read
+            worker.pipe.send((task.job.digest, content, task.values, self._timeout))
 
 
 def _collect(
@@ -125,16 +150,10 @@ def _start() -> _Worker:
     return _Worker(process, ours, since=monotonic())
 
 
-def _give(worker: _Worker, task: Task, timeout: float | None) -> None:
+def _give(worker: _Worker, task: Task) -> None:
     if not worker.tasks:
         worker.since = monotonic()
     worker.tasks.append(task)
-    content = None
-    if task.job.digest not in worker.known:
-        worker.known.add(task.job.digest)
-        content = (task.job.system, task.job.settings)
-    with suppress(OSError):  # it has just died: that shows when its pipe is read
-        worker.pipe.send((task.job.digest, content, task.values, timeout))
 
 
 def _stop(worker: _Worker) -> None:
