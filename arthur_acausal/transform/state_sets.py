@@ -117,14 +117,13 @@ def state_sets(
 
 
 def _slopes(row: Row) -> dict[int, SX]:
-    """Return d(row)/d(node) over the row's own symbols."""
+    """Return d(row)/d(node) over the row's own symbols, one for each node as in every row made by differentiation."""
     found: dict[int, SX] = {}
     for symbol, ref in zip(row.expression.symbols, row.refs, strict=True):
         if ref.kind == "node":
             slope = ca.jacobian(row.expression.value, symbol)
             if slope.nnz():
-                signed = slope if ref.sign > 0 else -slope
-                found[ref.number] = found[ref.number] + signed if ref.number in found else signed
+                found[ref.number] = slope
     return found
 
 

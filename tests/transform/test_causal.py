@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from casadi import exp, tanh
+from casadi import SX, exp, tanh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,14 +13,17 @@ from arthur_acausal import (
     Equations,
     ParameterError,
     Real,
+    StructureError,
     connect,
     der,
     parameter,
     real_input,
+    real_output,
     start,
     translate,
     variable,
 )
+from arthur_acausal.transform.tear import _ordered
 from tests.circuit import Capacitor, Current, Ground, Resistor
 
 
@@ -221,3 +224,91 @@ def test_the_report_counts() -> None:
     assert kept == report.assigned + len(report.torn) + len(report.states), "one row for each"
     assert (report.index, report.differentiated, report.inputs) == (1, [], [])
     assert report.parameters == 2
+
+
+class Stage(Component):
+    """Half of what comes in, and ``c`` of its own."""
+
+    u: Real = real_input("1")
+    y: Real = real_output("1")
+    c: Real = parameter("1", default=0.0)
+
+    def equations(self) -> Equations:
+        yield self.y == 0.5 * self.u + self.c
+
+
+class Ring(Component):
+    """Stages in a ring, the first with c = 1: x_1 = 1 / (1 - 2^-n). From the torn one on they are solved both ways."""
+
+    n: int = 2
+
+    def build(self) -> None:
+        self.stages = [Stage(c=float(k == 0)) for k in range(self.n)]
+
+    def equations(self) -> Equations:
+        for before, after in zip(self.stages, self.stages[1:] + self.stages[:1], strict=True):
+            yield connect(before.y, after.u)
+
+
+@pytest.mark.parametrize(("n", "torn"), [(2, 1), (17, 1), (18, 2), (19, 3), (35, 3), (36, 4)])
+def test_a_chain_in_a_torn_block_has_eight_links_at_most(n: int, torn: int) -> None:
+    translation = translate(Ring(n=n), compile="never")
+    assert translation.report.blocks == [(n, torn)]
+    assert len(translation.report.torn) == torn
+    solution = translation.simulate(1.0)
+    for k in range(n):
+        assert solution.final(f"stages[{k}].y") == pytest.approx(0.5**k / (1 - 0.5**n), rel=1e-9)
+
+
+class Loop(Component):
+    """Two unknowns of one block, each of which can be torn: a = b / 2, b = 1 - a."""
+
+    a: Real = variable("1")
+    b: Real = variable("1")
+
+    def equations(self) -> Equations:
+        yield self.a == 0.5 * self.b
+        yield self.b == 1 - self.a
+
+
+@pytest.mark.parametrize("given", ["a", "b"])
+def test_the_variable_with_a_given_start_is_torn(given: str) -> None:
+    translation = translate(Loop(a=start(0.1)) if given == "a" else Loop(b=start(0.1)))
+    assert translation.report.torn == [given]
+    assert translation.report.assigned == 1
+    assert translation.simulate(1.0).final("b") == pytest.approx(2.0 / 3.0)
+
+
+def test_an_equation_determines_first_what_it_can_be_divided_by() -> None:
+    symbol = SX.sym("k")
+    place = {n: 10 + n for n in range(5)}
+    edges = {0: None, 1: symbol, 2: 2.0, 3: None, 4: -1.0, 9: 1.0}
+    assert _ordered(edges, place, rates={3}) == [13, 12, 14, 11, 10], "9 is a state, and known"
+    assert _ordered(edges, place, rates=set()) == [12, 14, 11, 10, 13]
+
+
+def test_terms_that_cancel_by_their_numbers_are_none() -> None:
+    class Cancelling(Component):
+        x: Real = variable("1")
+        y: Real = variable("1")
+        z: Real = variable("1")
+
+        def equations(self) -> Equations:
+            yield "same", self.z == self.x
+            yield "sum", self.x + self.y == self.z + 1
+            yield "other", self.x + 2 * self.y == 3 * self.z
+
+    report = translate(Cancelling()).report
+    assert (report.n_blocks, report.blocks) == (2, []), "the sum holds y only"
+
+    class Undetermined(Cancelling):
+        def equations(self) -> Equations:
+            yield "same", self.z == self.x
+            yield "sum", self.x + self.y == self.z + 1
+            yield "twice", 2 * self.x + self.y == 2 * self.z + 1
+
+    with pytest.raises(
+        StructureError, match=r'more than their unknowns: "sum".*"twice".*not determined: x'
+    ) as caught:
+        translate(Undetermined())
+    assert "which hold only y" in str(caught.value)

@@ -15,6 +15,7 @@ from arthur_acausal import (
     connect,
     der,
     parameter,
+    real_input,
     start,
     time,
     translate,
@@ -303,3 +304,35 @@ def test_a_constraint_between_angles_of_a_slider() -> None:
     np.testing.assert_allclose(solution["s"], 0.1 * np.cos(phi) + rod, atol=1e-7)
     v = -2.0 * np.sin(phi) - 0.2 * np.sin(phi) * np.cos(phi) / rod
     np.testing.assert_allclose(solution["v"], v, atol=1e-6)
+
+
+class Followed(Component):
+    """y follows the outer signal u exactly, and its speed is asked for."""
+
+    u: Real = real_input("m")
+    y: Real = variable("m")
+    v: Real = variable("m/s")
+
+    def equations(self) -> Equations:
+        yield "track", self.y == 2 * self.u
+        yield "speed", self.v == der(self.y)
+
+
+def test_the_derivative_of_an_outer_signal_is_refused_with_a_remedy() -> None:
+    with pytest.raises(StructureError, match=r'"track".*must be differentiated.*external input') as caught:
+        translate(Followed())
+    assert "filter" in str(caught.value.remedy)
+
+
+def test_the_index_counts_differentiations() -> None:
+    class Decay(Component):
+        T: Real = parameter("s", default=1.0)
+        x: Real = variable("1", start=1.0, fixed=True)
+
+        def equations(self) -> Equations:
+            yield self.T * der(self.x) == -self.x
+
+    assert translate(Decay()).report.index == 0
+    assert translate(GearedBySecond()).report.index == 3, "the gear twice"
+    report = translate(Pendulum()).report
+    assert sorted(report.dummies)[0].startswith("der(v") and len(report.dummies) == 2
