@@ -93,6 +93,11 @@ class StretchEvaluator:
         self.roots = self.conditions = self.when_values = self.nothing
         self.sample_inputs = self.sample_times = self.nothing
         self.external = None
+        self._labels = stretch.row_labels
+
+    def blamed(self, rows: Sequence[int]) -> list[str]:
+        """Return the names of rows."""
+        return [self._labels[i] for i in rows]
 
     def nothing(self) -> FloatArray:
         """No relations, clauses, samples or initial conditions: every state is given."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from arthur_acausal.codegen.calls import Calls, ExternalCall, Need, completed
 from arthur_acausal.codegen.kernel import Kernel
+from arthur_acausal.codegen.origins import Origins
 from arthur_acausal.codegen.parameters import ParameterTable
 from arthur_acausal.codegen.rates import RootsWithRates
 from arthur_acausal.codegen.recovery import Recovery
@@ -70,6 +71,7 @@ class CompiledDAE:
     calls: list[ExternalCall] = field(repr=False)
     needs: dict[str, Need] = field(repr=False)  # what functions take of the external ones, where they do
     recovery: Recovery = field(repr=False)
+    origins: Origins = field(repr=False)
     samples: list[SampledBlock]
     relations_of_rates: bool
     sets: StateSets | None = field(repr=False)
@@ -241,6 +243,12 @@ class Evaluator:
         if "sample_times" not in self._kernels:
             self._kernels["sample_times"] = Kernel(self._dae.functions["sample_times"], [self.p])
         return self._kernels["sample_times"]
+
+    def blamed(self, rows: Sequence[int]) -> list[str]:
+        """Return the equations, as written, that make some rows of F not finite; outputs of calls are the latest ones."""
+        if "observed" not in self._kernels:
+            self._kernels["observed"] = Kernel(self._dae.recovery.observed, self._continuous)
+        return self._dae.origins.blamed(rows, self._kernels["observed"]())
 
     @property
     def initial(self) -> Callable[[], FloatArray]:

@@ -19,6 +19,7 @@ from arthur_acausal.codegen.chain_rule import ChainRule
 from arthur_acausal.codegen.compiled import CompiledDAE, as_bools, pattern_of
 from arthur_acausal.codegen.event_kernels import placed_row, samples_of, time_only, whens_of
 from arthur_acausal.codegen.kernel import compile_functions
+from arthur_acausal.codegen.origins import Origins, origins_of
 from arthur_acausal.codegen.recovery import Recovery, Source
 from arthur_acausal.codegen.starts import attribute_arrays, collect_starts, ignored_starts
 from arthur_acausal.codegen.switching import RELATION, add_switching, continuation_starts
@@ -58,6 +59,7 @@ def generate(
     nominal, minimum, maximum = attribute_arrays(dae, assembly.y_nodes)
     flat, n_states, start_only = dae.flat, len(dae.causal.states), dae.nodes.start_only
     own_start = bool(start_only) and not (starting or continuation)
+    recovery, origins = _recovery(dae, assembly, rule, y_place)
     return CompiledDAE(
         name=flat.name,
         y_paths=[dae.nodes.name(n) for n in assembly.y_nodes],
@@ -76,7 +78,8 @@ def generate(
         pivot_labels=[label for _, label in assembly.pivots],
         functions=functions,
         calls=calls,
-        recovery=_recovery(dae, assembly, rule, y_place),
+        recovery=recovery,
+        origins=origins,
         sets=dae.reduced.sets,
         dummies=dae.reduced.dummies,
         blends=starting and "homotopy" in start_only,
@@ -202,7 +205,9 @@ def _initial(
     return _column(values), labels
 
 
-def _recovery(dae: StructuredDAE, assembly: Assembly, rule: ChainRule, y_place: dict[int, int]) -> Recovery:
+def _recovery(
+    dae: StructuredDAE, assembly: Assembly, rule: ChainRule, y_place: dict[int, int]
+) -> tuple[Recovery, Origins]:
     paths, sources, quantities = [], [], []
     observed: list[SX] = []
     place_of_node: dict[int, int] = {}
@@ -245,7 +250,7 @@ def _recovery(dae: StructuredDAE, assembly: Assembly, rule: ChainRule, y_place: 
     loose = ca.vertcat(a.yp, a.y[n_states:])
     if any(rule.reaches(x, loose) for x in rule.inputs):
         loose = ca.vertcat(loose, a.e)
-    return Recovery(
+    recovery = Recovery(
         paths,
         sources,
         units,
@@ -257,6 +262,7 @@ def _recovery(dae: StructuredDAE, assembly: Assembly, rule: ChainRule, y_place: 
         rule.calls(),
         _depending(column, a.e),
     )
+    return recovery, origins_of(dae, assembly, place_of_node)
 
 
 def _depending(column: SX, on: SX) -> BoolArray:

@@ -23,7 +23,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from arthur_acausal.codegen import calls, compiled, parameters, recovery, tables
+from arthur_acausal.codegen import calls, compiled, origins, parameters, recovery, tables
 from arthur_acausal.codegen.cache import Cache, default_cache, make_key
 from arthur_acausal.codegen.compiled import CompiledDAE
 from arthur_acausal.codegen.kernel import load_library
@@ -33,7 +33,7 @@ from arthur_acausal.transform import state_sets
 # The only classes that an archive may name.
 _CLASSES: dict[str, type[Any]] = {
     kind.__name__: kind
-    for module in (calls, compiled, tables, parameters, recovery, state_sets)
+    for module in (calls, compiled, tables, origins, parameters, recovery, state_sets)
     for kind in vars(module).values()
     if isinstance(kind, type) and is_dataclass(kind)
 }

@@ -8,9 +8,9 @@ from arthur_acausal.declare.authored import defined_at
 from arthur_acausal.declare.model import Component, Connector, Model, title_of
 from arthur_acausal.errors import StructureError
 from arthur_acausal.flatten.block import Block, Equation
-from arthur_acausal.graph import dulmage_mendelsohn, matching
+from arthur_acausal.graph import Union, dulmage_mendelsohn, matching
 
-LISTED = 8  # unknowns in one message
+LISTED = 8  # unknowns of one group in a message
 
 
 class Count(NamedTuple):
@@ -79,20 +79,26 @@ def _unbalanced(
     component: Component, block: Block, connections: list[list[int]], equations: int, unknowns: int
 ) -> StructureError:
     over, missing = _culprits(component, block, connections)
+    where = defined_at(type(component).equations)
+    culprits = []
+    if missing:
+        culprits.append(f"not determined: {'; '.join(_among(*m) for m in missing)}")
+    if over:
+        culprits.append(f"surplus: {'; '.join(f'{e.name} ({e.where})' for e in over)}")
     if equations > unknowns:
-        told = "; ".join(f"{e.name} ({e.where})" for e in over)
-        culprits, remedy = f"surplus: {told}", "remove what is surplus, or an equation that says the same"
-        where = over[0].where if over else defined_at(type(component).equations)
+        remedy = "remove what is surplus, or an equation that says the same"
+        where = over[0].where if over else where
+        culprits.reverse()
     else:
-        among = "" if len(missing) == unknowns - equations else f"{unknowns - equations} of "
-        culprits = f"not determined: {among}{', '.join(missing)}"
-        remedy = f"add an equation that determines {missing[0]}" if missing else "add an equation"
-        where = defined_at(type(component).equations)
+        remedy = "add an equation"
+        if missing:
+            number, names = missing[0]
+            remedy += f" that determines {names[0] if number == len(names) else 'one of them'}"
     number = abs(equations - unknowns)
     few = "too many" if equations > unknowns else "too few"
     return StructureError(
         f"{type(component).__name__} does not balance by itself: {equations} equations for {unknowns} unknowns"
-        + (f"; {culprits}" if over or missing else ""),
+        + "".join(f"; {text}" for text in culprits),
         path=title_of(component),
         where=where,
         cause=f"{number} equation{'s' if number > 1 else ''} {few}, with flows and inputs given from outside",
@@ -100,13 +106,20 @@ def _unbalanced(
     )
 
 
+def _among(number: int, names: list[str]) -> str:
+    """Return the text for some unknowns of which a number are not determined."""
+    told = ", ".join(names[:LISTED]) + (f" and {len(names) - LISTED} more" if len(names) > LISTED else "")
+    return told if number == len(names) else f"{number} of {told}"
+
+
 def _culprits(
     component: Component, block: Block, connections: list[list[int]]
-) -> tuple[list[Equation], list[str]]:
+) -> tuple[list[Equation], list[tuple[int, list[str]]]]:
     """Return the component's own equations that are surplus, and the unknowns that are not determined.
 
-    A part and the world outside can determine as many of the variables where they meet the component as the count
-    says; which ones is not known here, so that each such equation stands for all of them.
+    The latter in groups that share no equation, those of a single unknown first, each with the number of equations
+    that it lacks. A part and the world outside can determine as many of the variables where they meet the component
+    as the count says; which ones is not known here, so that each such equation stands for all of them.
     """
     names, inside = _unknowns(component)
     numbers = list(names)
@@ -124,9 +137,24 @@ def _culprits(
         found = [a.number for a in equation.atoms if a.kind in ("variable", "der")]
         rows.append(sorted({column[m] for n in found for m in ([n] if n in column else within.get(n, []))}))
     assigned = matching(rows, len(numbers), matching(rows[:own], len(numbers)))  # what is given comes first
-    parts = dulmage_mendelsohn(rows, len(numbers), assigned)
     over = [e for e, v in zip(block.equations, assigned[own:], strict=True) if v < 0]
-    return over, [names[numbers[k]] for k in parts.under_variables][:LISTED]
+    groups = _underdetermined(rows, len(numbers), assigned)
+    return over, [(lacking, [names[numbers[k]] for k in columns]) for lacking, columns in groups]
+
+
+def _underdetermined(rows: list[list[int]], width: int, assigned: list[int]) -> list[tuple[int, list[int]]]:
+    """Return the columns of the underdetermined part, joined by its rows, with how many rows each group lacks."""
+    part = dulmage_mendelsohn(rows, width, assigned)
+    joined = Union(width)
+    for row in part.under_equations:
+        for column in rows[row]:
+            joined.union(rows[row][0], column)
+    groups: dict[int, list[int]] = {}
+    for column in part.under_variables:
+        groups.setdefault(joined.find(column), []).append(column)
+    matched = set(assigned)
+    found = [(sum(k not in matched for k in columns), columns) for columns in groups.values()]
+    return sorted(found, key=lambda group: len(group[1]))
 
 
 def _unknowns(component: Component) -> tuple[dict[int, str], dict[int, list[int]]]:

@@ -44,10 +44,11 @@ def display_unit(unit: str, display: str = "", magnitude: float = math.nan) -> U
 
 
 def pretty_unit(text: str) -> str:
-    """A unit for people: m³/s, N·m, µm; an empty text for 1."""
+    """A unit for people: m³/s, N·m, µm, °C; an empty text for 1."""
     if text in ("1", ""):
         return ""
     text = re.sub(r"(\^|\*\*)(-?\d+)", lambda match: match[2].translate(SUPERSCRIPTS), text)
+    text = re.sub(r"\bdeg(?=[CF]\b)", "°", text)
     return re.sub(r"\bu(?=[a-zA-Z])", "µ", text.replace("*", "·"))
 
 

@@ -33,13 +33,19 @@ TINY = 1e-300  # stands for a relation that is exactly zero: far below any other
 
 @dataclass(frozen=True, slots=True)
 class Offence:
-    """A trial state at which the residual rows `rows` were not finite, because of the external `calls` if any."""
+    """A trial state at which the residual rows `rows` were not finite: because of the external `calls`, or `equations`."""
 
     t: float
     y: FloatArray
     yp: FloatArray
     rows: IntArray
     calls: Sequence[str] = ()
+    equations: Sequence[str] = ()
+
+    @property
+    def labels(self) -> Sequence[str]:
+        """What to name."""
+        return self.calls or self.equations
 
 
 @dataclass(slots=True)
@@ -102,9 +108,9 @@ class Monitor:
         if self.residuals != self.last_bad + 1 and np.isfinite(evaluator.y).all():
             rows = np.flatnonzero(bad).astype(np.int32)
             calls = evaluator.external.without_value() if evaluator.external is not None else ()
-            self.offence = Offence(
-                float(evaluator.t[0]), evaluator.y.copy(), evaluator.yp.copy(), rows, calls
-            )
+            equations = () if calls else evaluator.blamed(rows.tolist())
+            t, y, yp = float(evaluator.t[0]), evaluator.y.copy(), evaluator.yp.copy()
+            self.offence = Offence(t, y, yp, rows, calls, equations)
         self.last_bad = self.residuals
         self.non_finite += 1
         return True

@@ -288,11 +288,9 @@ class HybridRun:
         s.output_s = perf_counter() - before
         s.total_s = perf_counter() - self._begun
         if counts.offence is not None and status == "finished":
-            rows: list[int] = counts.offence.rows.tolist()
-            labels = listed([self._dae.row_labels[i] for i in rows], "; ")
             s.messages.append(
                 f"{counts.non_finite} trial states had no finite residual, and shorter steps went round them; "
-                f"one at t = {counts.offence.t:.6g} s: {labels}"
+                f"one at t = {counts.offence.t:.6g} s: {listed(counts.offence.labels, '; ')}"
             )
         return Trajectory(
             t,

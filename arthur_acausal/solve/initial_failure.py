@@ -37,7 +37,8 @@ def failure(
     bad = np.flatnonzero(~np.isfinite(residual))
     if solved.reason == "not finite" or bad.size:
         calls = evaluator.external.without_value() if evaluator.external is not None else ()
-        told = listed(calls or [rows[i] for i in bad.tolist()], "; ")
+        written = evaluator.blamed([i for i in bad.tolist() if i < dae.n])
+        told = listed(calls or [*written, *(rows[i] for i in bad.tolist() if i >= dae.n)], "; ")
         return InitializationError(
             f"at t = {evaluator.t[0]:g} s these have no finite value: {told}",
             cause=f"the values there are {_values(dae, evaluator, bad)}",

@@ -220,6 +220,10 @@ class Evaluator(Protocol):
     @property
     def external(self) -> External | None: ...
 
+    def blamed(self, rows: Sequence[int]) -> Sequence[str]:
+        """The equations, as they are written, that make these rows of F not finite at the arguments as they are."""
+        ...
+
 
 class DAE(Protocol):
     """A compiled model."""

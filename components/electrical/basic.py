@@ -29,9 +29,9 @@ class Resistor(HeatingTwoPin):
     """
 
     R: Real = parameter("ohm", description="resistance at T_ref")
-    T_ref: Real = parameter("K", default=300.15, min=0.0)
+    T_ref: Real = parameter("K", default=300.15, min=0.0, display="degC")
     alpha: Real = parameter("1/K", default=0.0, description="temperature coefficient")
-    T: Real = parameter("K", default=lambda self: self.T_ref, min=0.0)
+    T: Real = parameter("K", default=lambda self: self.T_ref, min=0.0, display="degC")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -59,9 +59,9 @@ class Conductor(HeatingTwoPin):
     """Ohm's law: i = G v/(1 + alpha (T - T_ref)). ``G`` [S] at ``T_ref`` [K]; ``alpha`` [1/K] of the resistance."""
 
     G: Real = parameter("S", description="conductance at T_ref")
-    T_ref: Real = parameter("K", default=300.15, min=0.0)
+    T_ref: Real = parameter("K", default=300.15, min=0.0, display="degC")
     alpha: Real = parameter("1/K", default=0.0, description="temperature coefficient of the resistance")
-    T: Real = parameter("K", default=lambda self: self.T_ref, min=0.0)
+    T: Real = parameter("K", default=lambda self: self.T_ref, min=0.0, display="degC")
 
     def equations(self) -> Equations:
         yield from super().equations()

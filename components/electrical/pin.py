@@ -44,7 +44,9 @@ class HeatingTwoPin(TwoPin):
     """
 
     use_heat_port: bool = False
-    T: Real = parameter("K", default=293.15, min=0.0, description="temperature without a heat port")
+    T: Real = parameter(
+        "K", default=293.15, min=0.0, display="degC", description="temperature without a heat port"
+    )
     P_loss: Real = variable("W", description="power turned to heat")
 
     def build(self) -> None:

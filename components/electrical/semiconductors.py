@@ -46,7 +46,7 @@ class HeatingDiode(HeatingTwoPin):
     R: Real = parameter("ohm", default=1e8, min=0.0, description="parallel resistance")
     EG: Real = parameter("V", default=1.11, description="band gap")
     N: Real = parameter("1", default=1.0, description="emission coefficient")
-    T_nom: Real = parameter("K", default=300.15, min=0.0, description="temperature of Ids")
+    T_nom: Real = parameter("K", default=300.15, min=0.0, display="degC", description="temperature of Ids")
     XTI: Real = parameter("1", default=3.0, description="temperature exponent")
     k_B: Real = parameter("J/K", default=1.380649e-23, description="Boltzmann constant")
     q_e: Real = parameter("C", default=1.602176634e-19, description="elementary charge")

@@ -18,7 +18,7 @@ class HeatCapacitor(Component):
 
     port = HeatPort()
     C: Real = parameter("J/K", min=0.0, description="heat capacity")
-    T: Real = variable("K", start=ROOM_TEMPERATURE, nominal=300.0, description="temperature")
+    T: Real = variable("K", start=ROOM_TEMPERATURE, nominal=300.0, display="degC", description="temperature")
     der_T: Real = variable("K/s", description="rate of the temperature")
 
     def equations(self) -> Equations:

@@ -10,7 +10,7 @@ class TemperatureSensor(Component):
     """Measures the temperature of its port: ``T`` [K], and ``T_celsius``, the number of degrees Celsius [1]."""
 
     port = HeatPort()
-    T: Real = real_output("K", nominal=300.0)
+    T: Real = real_output("K", nominal=300.0, display="degC")
     T_celsius: Real = real_output("1", nominal=10.0, description="degrees Celsius, a plain number")
     T_zero: Real = parameter("K", default=273.15, description="0 degrees Celsius")
     kelvin: Real = parameter("K", default=1.0, description="what one degree means")

@@ -10,7 +10,7 @@ class FixedTemperature(Component):
     """A body so large that its temperature ``T`` [K] does not change."""
 
     port = HeatPort()
-    T: Real = parameter("K", min=0.0)
+    T: Real = parameter("K", min=0.0, display="degC")
 
     def equations(self) -> Equations:
         yield self.port.T == self.T
@@ -20,7 +20,7 @@ class PrescribedTemperature(Component):
     """A body whose temperature is the signal ``T`` [K]."""
 
     port = HeatPort()
-    T: Real = real_input("K", default=293.15, min=0.0)
+    T: Real = real_input("K", default=293.15, min=0.0, display="degC")
 
     def equations(self) -> Equations:
         yield self.port.T == self.T
@@ -31,7 +31,7 @@ class FixedHeatFlow(Component):
 
     port = HeatPort()
     Q_flow: Real = parameter("W")
-    T_ref: Real = parameter("K", default=293.15)
+    T_ref: Real = parameter("K", default=293.15, display="degC")
     alpha: Real = parameter("1/K", default=0.0)
 
     def equations(self) -> Equations:
@@ -43,7 +43,7 @@ class PrescribedHeatFlow(Component):
 
     port = HeatPort()
     Q_flow: Real = real_input("W", default=0.0)
-    T_ref: Real = parameter("K", default=293.15)
+    T_ref: Real = parameter("K", default=293.15, display="degC")
     alpha: Real = parameter("1/K", default=0.0)
 
     def equations(self) -> Equations:

@@ -189,3 +189,43 @@ def test_a_part_that_is_wrong_is_named_not_its_owner() -> None:
     error = refusal(Circuit())
     assert error.path == "half"
     assert error.message.startswith("Half does not balance")
+
+
+def test_what_nothing_determines_is_told_apart_from_what_lacks_one_of_several() -> None:
+    class Loose(Component):
+        x: Real = variable("1")
+        y: Real = variable("1")
+        z: Real = variable("1")
+        w: Real = variable("1")
+
+        def equations(self) -> Equations:
+            yield self.x == 1
+            yield self.y == self.z + self.x
+
+    error = refusal(Loose())
+    assert "2 equations for 4 unknowns; not determined: w; 1 of y, z" in error.message
+    assert error.remedy == "add an equation that determines w"
+
+
+def test_an_equation_that_is_surplus_does_not_hide_what_is_missing() -> None:
+    class Misaimed(Component):
+        x: Real = variable("1")
+        y: Real = variable("1")
+        z: Real = variable("1")
+
+        def equations(self) -> Equations:
+            yield self.x == 1
+            yield self.x == 2
+
+    message = refusal(Misaimed()).message
+    assert "2 equations for 3 unknowns; not determined: y; z; surplus: x == 2 (test_balance.py:" in message
+
+    class Overfull(Misaimed):
+        def equations(self) -> Equations:
+            yield from super().equations()
+            yield self.x == 3
+            yield self.x == self.y
+
+    message = refusal(Overfull()).message
+    assert "4 equations for 3 unknowns; surplus: x == 2" in message
+    assert message.endswith("; not determined: z")

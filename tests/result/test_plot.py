@@ -131,4 +131,9 @@ def test_units_look_like_in_print() -> None:
     assert pretty_unit("m^3/s") == "m³/s"
     assert pretty_unit("kg*m^-2") == "kg·m⁻²"
     assert pretty_unit("um") == "µm"
+    assert (pretty_unit("degC"), pretty_unit("W/degC"), pretty_unit("delta_degC")) == (
+        "°C",
+        "W/°C",
+        "delta_degC",
+    )
     assert labelled("count", "1") == "count"

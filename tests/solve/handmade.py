@@ -268,6 +268,10 @@ class HandmadeEvaluator:
         self.sample_times = Kernel("sample_times", arguments, casadi.densify(_column([])))
         self.initial = Kernel("initial", arguments, casadi.densify(_column(dae.h)))
         self.initial_jacobian = Kernel("initial_jacobian", arguments, dae._J_init)
+        self._labels = dae.row_labels
+
+    def blamed(self, rows: Sequence[int]) -> list[str]:
+        return [self._labels[i] for i in rows]
 
 
 def _column(values: Any) -> Any:

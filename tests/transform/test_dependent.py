@@ -133,3 +133,24 @@ def test_what_depends_for_some_parameters_only_is_left_to_the_run() -> None:
     with pytest.raises(InitializationError, match="singular") as caught:
         translation.simulate(0.1, parameters={"M": 1.0})
     assert "first" in str(caught.value) and "second" in str(caught.value)
+
+
+def test_a_constraint_with_a_variable_that_is_zero_is_differentiated_as_without_it() -> None:
+    class Shifted(Component):
+        """a = 3 b, with a drift that is zero: 4 b' = -4 b."""
+
+        T: Real = parameter("s", default=1.0)
+        a: Real = variable("kg", start=3.0, fixed=True)
+        b: Real = variable("kg")
+        q: Real = variable("kg/s")
+        drift: Real = variable("1")
+
+        def equations(self) -> Equations:
+            yield self.drift == 0
+            yield self.T * der(self.a) == self.T * self.q - self.a
+            yield self.T * der(self.b) == -self.b - self.T * self.q
+            yield "ratio", self.a * (1 + self.drift) == 3 * self.b
+
+    solution = translate(Shifted()).simulate(1.0, tolerance=1e-9)
+    np.testing.assert_allclose(solution["b"], np.exp(-solution.t), rtol=1e-6)
+    np.testing.assert_allclose(solution["q"], 0.0, atol=1e-9)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from casadi import SX
 from scipy.linalg import qr
 
 from arthur_acausal import Component, Equations, Real, der, parameter, variable
 from arthur_acausal.flatten.flatten import flatten
+from arthur_acausal.transform.rows import Ref
 from arthur_acausal.transform.state_sets import StateSets, pivots
 from arthur_acausal.transform.structured import StructuredDAE, transform
 from tests.transform.test_index import Geared, Pendulum
@@ -93,10 +95,11 @@ def test_sets_of_the_pendulum() -> None:
     assert sets.columns == [chain[0] for chain in sets.chains]
     assert sets.weight.tolist() == [1.0, 1.0]
     values = {"x": 1.2, "y": -1.6}
-    numbers = [
-        float(dae.evaluator(row, lambda ref: values.get(dae.nodes.name(ref.number), np.nan), entry))
-        for row, entry in entries
-    ]
+
+    def look(ref: Ref) -> SX:
+        return SX(values.get(dae.nodes.name(ref.number), np.nan))
+
+    numbers = [float(dae.evaluator(row, look, entry)) for row, entry in entries]
     assert numbers == [2.4, -3.2], "d(x^2 + y^2)'' / dx'', dy''"
     assert {dae.nodes.name(n) for n in sets.choose(np.array(numbers))} == {"der(vy)", "vy"}
 
