@@ -245,7 +245,7 @@ class Evaluator:
         return self._kernels["sample_times"]
 
     def blamed(self, rows: Sequence[int]) -> list[str]:
-        """Return the equations, as written, that make some rows of F not finite; outputs of calls are the latest ones."""
+        """Return the equations, as written, that make some rows of F not finite at the arguments as they are."""
         if "observed" not in self._kernels:
             self._kernels["observed"] = Kernel(self._dae.recovery.observed, self._continuous)
         return self._dae.origins.blamed(rows, self._kernels["observed"]())

@@ -33,7 +33,7 @@ TINY = 1e-300  # stands for a relation that is exactly zero: far below any other
 
 @dataclass(frozen=True, slots=True)
 class Offence:
-    """A trial state at which the residual rows `rows` were not finite: because of the external `calls`, or `equations`."""
+    """A trial state at which the residual rows `rows` were not finite, because of `calls` or `equations`."""
 
     t: float
     y: FloatArray

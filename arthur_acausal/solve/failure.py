@@ -69,7 +69,8 @@ def integration_failure(
     cause = suspect
     offence = monitor.offence
     if offence is not None and offence.t > t:
-        cause = f"no finite value at t = {offence.t:.9g} s: {listed(offence.labels, '; ')}; {_state(dae, offence.y, offence.rows)}"
+        told = listed(offence.labels, "; ")
+        cause = f"no finite value at t = {offence.t:.9g} s: {told}; {_state(dae, offence.y, offence.rows)}"
         what = "an external function" if offence.calls else "an equation"
         meaning, remedy = f"{what} has no finite value", NO_FINITE
     elif monitor.jacobian_offence is not None and monitor.jacobian_offence[0] > t:

@@ -206,6 +206,25 @@ def test_the_variable_that_stands_for_a_set() -> None:
     assert paths == ["b", "b", "c", "c"], "the one with a start value; the one that is differentiated"
 
 
+def test_the_keenest_to_be_a_state_stands_for_its_set() -> None:
+    class Wanted(Component):
+        a: Real = variable("1", start=2.0, state_select="avoid")
+        b: Real = variable("1", state_select="prefer")
+        c: Real = variable("1", start=1.0)
+        T: Real = parameter("s", default=1.0)
+
+        def equations(self) -> Equations:
+            yield self.a == self.b
+            yield self.T * der(self.a) == -self.a
+            yield self.c == -self.b
+
+    flat = flatten(Wanted())
+    found = eliminate_aliases(flat, LinearAnalysis())
+    assert [flat.variables[r].path for r in found.root] == ["b", "b", "b"]
+    assert found.sign == [1, 1, -1]
+    assert found.count == 2
+
+
 def test_a_loop_of_connections_through_a_component_is_named() -> None:
     class Shunt(Component):
         p = Pin()
