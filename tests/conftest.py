@@ -6,11 +6,16 @@ import os
 
 import hypothesis
 import pytest
+from hypothesis import Phase
 
 os.environ.setdefault("MPLBACKEND", "Agg")
 
 # Repeatable, and no deadline: a loaded machine is no failure.
 hypothesis.settings.register_profile("arthur", derandomize=True, deadline=None)
+# For who asks only whether a test fails, not for the simplest example: benchmarks.mutants.
+hypothesis.settings.register_profile(
+    "unshrunk", hypothesis.settings.get_profile("arthur"), phases=[Phase.explicit, Phase.generate]
+)
 hypothesis.settings.load_profile("arthur")
 
 
