@@ -83,7 +83,7 @@ class Copy:
             compiled.unlink()
 
     def outcome(self, file: str, limit: int) -> str:
-        """Run the tests that a mutant of the file can fail, up to the first one; ``limit``: CPU seconds for each stage."""
+        """Run the tests that a mutant of the file can fail, up to the first one; ``limit``: CPU seconds a stage."""
         environment = {**os.environ, "PYTHONPATH": str(self.folder)}
         environment["ARTHUR_CACHE_DIR"] = str(self.folder / "cache")
         stages = (OF_GRAPH, *OF_BOTH) if file.startswith(MUTATED[0]) else OF_BOTH
