@@ -62,7 +62,7 @@ class ServoValve(Component):
     f_spool: Real = parameter("Hz", default=250.0, min=0.0, description="natural frequency; assumed")
     zeta_spool: Real = parameter("1", default=0.7, min=0.0, description="damping ratio; assumed")
     x: Real = variable("1", start=0.0, nominal=0.1, description="spool position over the rated one")
-    v: Real = variable("1/s", start=0.0, nominal=10.0, description="spool velocity over the rated stroke")
+    v: Real = variable("1/s", start=0.0, nominal=500.0, description="spool velocity over the rated stroke")
     q_pa: Real = variable("m^3/s", nominal=1e-5, description="flow from P to A")
     q_pb: Real = variable("m^3/s", nominal=1e-5, description="flow from P to B")
     q_at: Real = variable("m^3/s", nominal=1e-5, description="flow from A to T")
