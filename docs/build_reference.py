@@ -96,7 +96,7 @@ def entry(name: str, kind: type[Any]) -> str:
     )
     bases = [b.__name__ for b in kind.__bases__ if b not in (Component, Connector, Record)]
     declared = kind._declarations
-    quantities = declared.quantities.values()
+    quantities = declared.written.values()
     extends = f", extends `{bases[0]}`" if bases else ""
     parts = [f"## {name}", f"{what}{extends}, {source(kind)}", docstring(kind)]
     parts += [ports(declared.parts), structural(kind, declared.structural)]

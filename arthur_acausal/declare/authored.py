@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -21,6 +22,7 @@ _BETWEEN = (
     "<string>",  # the __init__ that a dataclass makes
 )
 
+_SHAPES = re.compile(r"[Dd]imension.*?(\d+x\d+).*?(\d+x\d+)", re.DOTALL)
 SYMBOL_AS_TRUTH = "truth value"  # what CasADi's message for bool(symbol) contains
 
 
@@ -76,6 +78,8 @@ def authored(what: str, path: str, where: str = "") -> Iterator[None]:
 def _explained(error: Exception, what: str, path: str, where: str) -> DeclarationError:
     if SYMBOL_AS_TRUTH in str(error):
         return _truth(what, path, where)
+    if (shapes := _SHAPES.search(str(error))) is not None:
+        return _mismatch(shapes, what, path, where)
     if isinstance(error, AttributeError) and error.name and hasattr(error.obj, "_declarations"):
         return _attribute(error.obj, error.name, path, where)
     return DeclarationError(
@@ -84,6 +88,16 @@ def _explained(error: Exception, what: str, path: str, where: str) -> Declaratio
         where=where,
         cause=f"Python raised {type(error).__name__}",
         remedy="correct the line, or what it is given",
+    )
+
+
+def _mismatch(shapes: re.Match[str], what: str, path: str, where: str) -> DeclarationError:
+    return DeclarationError(
+        f"the shapes {shapes[1]} and {shapes[2]} do not fit in one expression",
+        path=path,
+        where=where,
+        cause=f"met in {what}; a vector is a column",
+        remedy="take vectors of one length, or a scalar with a vector; casadi.mtimes (@) multiplies by a matrix",
     )
 
 
@@ -101,7 +115,7 @@ def _truth(what: str, path: str, where: str) -> DeclarationError:
 
 
 def _attribute(model: Any, name: str, path: str, where: str) -> DeclarationError:
-    known = [*model._declarations.quantities, *model._declarations.parts, *model._declarations.structural]
+    known = model._declarations.names
     known += [n for n in model.__dict__ if not n.startswith("_") and n not in known]
     return DeclarationError(
         f"{type(model).__name__} has no {name!r}",

@@ -10,6 +10,7 @@ from arthur_acausal.declare.authored import authored
 from arthur_acausal.declare.model import MISSING, Binding, Component, Model, Record, constraint
 from arthur_acausal.declare.modify import declared, settle
 from arthur_acausal.declare.scope import Scope, using
+from arthur_acausal.declare.vector import split
 from arthur_acausal.errors import DeclarationError
 
 
@@ -49,6 +50,9 @@ def bind(template: Model, name: str, scope: Scope, owner: Model | None) -> Model
     bound.__dict__.update(template.__dict__)
     bound.__dict__["_binding"] = binding
     _check_structural(bound, path)
+    if bound._declarations.vectors:
+        with authored("the shape of a vector", path or type(bound).__name__, bound._where):
+            bound.__dict__["_declarations"] = bound._declarations.sized(bound)
     _number_quantities(bound, binding)
     # records first: the other parts may be given them
     for part, default in sorted(
@@ -79,7 +83,7 @@ def adopt(owner: Model, name: str, value: Any) -> Any:
         )
     if (
         name in declared.parts
-        or name in declared.quantities
+        or name in declared.written
         or isinstance(owner.__dict__.get(name), Model | list)
     ):
         raise DeclarationError(
@@ -179,7 +183,10 @@ def _check_structural(bound: Model, path: str) -> None:
 
 def _number_quantities(bound: Model, binding: Binding) -> None:
     prefix = f"{binding.path}." if binding.path else ""
-    scope = binding.scope
+    scope, modifications = binding.scope, bound._modifications
+    if bound._declarations.vectors:
+        with authored("a value", binding.path or type(bound).__name__, bound._where):
+            modifications = split(modifications, bound._declarations.vectors)
     for name, quantity in bound._declarations.quantities.items():
-        entry = declared(bound, prefix + name, quantity, bound._modifications.get(name, MISSING))
+        entry = declared(bound, prefix + name, quantity, modifications.get(name, MISSING))
         getattr(scope, quantity.space).append(entry)

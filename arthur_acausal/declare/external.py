@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-import casadi as ca
 import numpy as np
 from casadi import SX
 from numpy.typing import NDArray
 
 from arthur_acausal.declare.scope import ExternalOutput, Scope, current_scope
+from arthur_acausal.declare.vector import scalars
 from arthur_acausal.errors import DeclarationError
 
 FloatArray = NDArray[np.float64]
@@ -86,7 +86,7 @@ def external(function: ExternalFunction, *, inputs: Sequence[Any], outputs: Sequ
     """
     scope = current_scope("external()")
     _check_function(function)
-    ins, outs = _scalars(inputs), _scalars(outputs)
+    ins, outs = scalars(inputs), scalars(outputs)
     for what, found, wanted in (
         ("inputs", len(ins), function.n_inputs),
         ("outputs", len(outs), function.n_outputs),
@@ -143,8 +143,3 @@ def _units(function: Any, shape: tuple[int, int]) -> tuple[tuple[str, ...], tupl
             remedy="give (units of the inputs, units of the outputs)",
         )
     return ins, outs
-
-
-def _scalars(values: Sequence[Any]) -> tuple[SX, ...]:
-    columns = [ca.densify(SX(value)) for value in values]
-    return tuple(entry for column in columns for entry in ca.vertsplit(ca.vec(column)))

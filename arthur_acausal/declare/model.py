@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, TypeAlias, dataclass_transform
 
 from casadi import SX
@@ -13,6 +13,7 @@ from casadi import SX
 from arthur_acausal.declare.authored import calling_line
 from arthur_acausal.declare.quantity import Real, parameter
 from arthur_acausal.declare.scope import Scope
+from arthur_acausal.declare.vector import column, constant, expanded, size_of
 from arthur_acausal.errors import DeclarationError, nearest_or_all
 
 Equations: TypeAlias = Iterator[Any]
@@ -22,13 +23,29 @@ MISSING: Any = object()
 
 @dataclass(frozen=True, slots=True)
 class Declarations:
-    """What a class declares, bases first: quantities, parts, structural parameters (name -> default or MISSING)."""
+    """What a class declares, bases first: quantities, parts, structural parameters (name -> default or MISSING).
 
+    ``written``: the quantities as they are declared; ``quantities``: the same with the elements of vectors, by which
+    everything else counts; ``vectors``: the number of elements, of a class 0 where only an instance knows it.
+    """
+
+    written: dict[str, Real] = field(default_factory=dict)
     quantities: dict[str, Real] = field(default_factory=dict)
     parts: dict[str, Any] = field(default_factory=dict)
     structural: dict[str, Any] = field(default_factory=dict)
     fixed: frozenset[str] = frozenset()  # parts that the caller may not replace
     slot: dict[str, int] = field(default_factory=dict)  # place of a quantity within its own space
+    vectors: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def names(self) -> list[str]:
+        """What the caller may give, and all that is declared."""
+        return [*self.written, *self.parts, *self.structural]
+
+    def sized(self, instance: Model) -> Declarations:
+        """Return the declarations with the vectors of which only the instance knows the size."""
+        sizes = {name: size_of(self.written[name], instance) for name in self.vectors}
+        return self if sizes == self.vectors else replace(self, **_numbered(self.written, sizes))
 
 
 @dataclass(slots=True)
@@ -79,12 +96,27 @@ def _collect(cls: type) -> Declarations:
                     where=calling_line(),
                     remedy=f"declare it anew, with its annotation: {name}: ... = ..., or choose another name",
                 )
+    vectors = {
+        n: 0 if callable(q.shape) else size_of(q, None) for n, q in quantities.items() if q.shape is not None
+    }
+    return Declarations(
+        quantities,
+        parts=parts,
+        structural=structural,
+        fixed=frozenset(fixed),
+        **_numbered(quantities, vectors),
+    )
+
+
+def _numbered(written: dict[str, Real], vectors: dict[str, int]) -> dict[str, Any]:
+    """Return what the declarations hold of the quantities one by one, for vectors of these sizes."""
+    quantities = expanded(written, vectors)
     counts = {"variable": 0, "parameter": 0, "discrete": 0}
     slot: dict[str, int] = {}
     for name, quantity in quantities.items():
         slot[name] = counts[quantity.space]
         counts[quantity.space] += 1
-    return Declarations(quantities, parts, structural, frozenset(fixed), slot)
+    return {"quantities": quantities, "slot": slot, "vectors": vectors}
 
 
 def constraint(cls: type, name: str) -> tuple[type, ...]:
@@ -127,15 +159,14 @@ class Model:
                     remedy=f"annotate it: {name}: ... = ...",
                 )
             if (
-                name not in declared.quantities
+                name not in declared.written
                 and name not in declared.parts
                 and name not in declared.structural
             ):
-                known = [*declared.quantities, *declared.parts, *declared.structural]
                 raise DeclarationError(
                     f"{type(self).__name__} has no {name!r}",
                     where=where,
-                    remedy=nearest_or_all(name, known),
+                    remedy=nearest_or_all(name, declared.names),
                 )
         self.__dict__.update(_modifications=modifications, _binding=None, _where=where)
         for name, default in declared.structural.items():
@@ -146,6 +177,8 @@ class Model:
         binding = self._binding
         if binding is None:
             value = self._modifications.get(quantity.name, quantity.default)
+            if quantity.shape is not None and (vector := constant(quantity, self, value)) is not None:
+                return vector
             if isinstance(value, int | float):
                 return SX(value)
             raise DeclarationError(
@@ -153,9 +186,11 @@ class Model:
                 cause=f"the {type(self).__name__} made at {self._where} is not part of the model",
                 remedy="make it a part, in the class body or in build(); equations use their component and its parts",
             )
-        return binding.scope.symbol(
-            quantity.space, binding.first[quantity.space] + self._declarations.slot[quantity.name]
-        )
+        first, slot = binding.first[quantity.space], self._declarations.slot
+        if quantity.shape is None:
+            return binding.scope.symbol(quantity.space, first + slot[quantity.name])
+        names = [f"{quantity.name}[{k}]" for k in range(self._declarations.vectors[quantity.name])]
+        return column([binding.scope.symbol(quantity.space, first + slot[name]) for name in names])
 
     def __repr__(self) -> str:
         place = f" at {self._binding.path!r}" if self._binding else ""

@@ -10,6 +10,7 @@ from casadi import SX
 
 from arthur_acausal.declare.quantity import Quantity, Start
 from arthur_acausal.declare.scope import Declared, Scope, current_scope
+from arthur_acausal.declare.vector import scalars
 from arthur_acausal.errors import DeclarationError
 
 Expression: TypeAlias = "SX | float"
@@ -52,6 +53,7 @@ def sampled(
         A CasADi function of (t, inputs) will do. A class with a state of its own gives ``fresh()``, which returns
         a new one for each run.
     period, offset : of parameters [s]; the period is positive.
+    inputs : expressions; a vector counts as so many.
     outputs : with hold="zero" discrete variables, which nothing else changes; with hold="first" continuous
         variables, which this determines: each starts at its start value.
     hold : "first": a result is reached at the end of the period that it is computed at the beginning of, on a straight
@@ -65,6 +67,7 @@ def sampled(
     scope = current_scope("sampled()")
     if hold not in ("zero", "first"):
         raise DeclarationError(f"hold is {hold!r}", remedy='choose "zero" or "first"')
+    outputs = scalars(outputs)
     wanted = "discrete" if hold == "zero" else "variable"
     for output in outputs:
         atom = scope.atom(output)
@@ -74,11 +77,11 @@ def sampled(
             raise DeclarationError(
                 f"an output of sampled() is {what}, not {output}", remedy=f"declare it with {remedy}"
             )
-    taken = (SX(period), SX(offset), tuple(SX(x) for x in inputs))
+    taken = (SX(period), SX(offset), scalars(inputs))
     called = None if trigger is None else SX(trigger)
     if hold == "zero":
-        return Sampled(function, *taken, tuple(outputs), trigger=called)
-    return _ramped(scope, function, taken, tuple(outputs), called)
+        return Sampled(function, *taken, outputs, trigger=called)
+    return _ramped(scope, function, taken, outputs, called)
 
 
 def _ramped(

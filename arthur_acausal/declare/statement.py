@@ -11,6 +11,7 @@ from casadi import SX
 from arthur_acausal.declare.model import Connector, Model
 from arthur_acausal.declare.readable import readable
 from arthur_acausal.declare.scope import Relation, Scope, current_scope
+from arthur_acausal.declare.vector import mapped
 from arthur_acausal.errors import DeclarationError
 
 Expression: TypeAlias = "SX | float"
@@ -26,7 +27,7 @@ class Connection:
 
 @dataclass(frozen=True, slots=True)
 class Reinit:
-    """At an event the state ``target`` jumps to ``value``."""
+    """At an event the state ``target`` jumps to ``value``; a vector of states to a vector, or all to one value."""
 
     target: SX
     value: SX
@@ -81,6 +82,8 @@ def der(x: SX) -> SX:
         return scope.symbol("der", atom.number)
     if not isinstance(x, SX):
         raise DeclarationError(f"der() takes a variable or an expression of variables, not {x!r}")
+    if x.numel() != 1:
+        return mapped(x, der)
     result = SX(0.0)
     for symbol in ca.symvar(x):
         found = scope.atom(symbol)
@@ -107,6 +110,8 @@ def der(x: SX) -> SX:
 def pre(x: SX) -> SX:
     """Return the value just before the event: of a discrete variable, or (inside ``when``) of a continuous one."""
     scope = current_scope("pre()")
+    if isinstance(x, SX) and x.numel() != 1:
+        return mapped(x, pre)
     atom = scope.atom(x)
     if atom is None or atom.kind not in ("discrete", "variable"):
         raise DeclarationError("pre() takes a variable", remedy="apply it to each variable of the expression")
@@ -133,6 +138,8 @@ def smooth_if_else(condition: Expression, then: Expression, otherwise: Expressio
 
 def event_condition(scope: Scope, condition: SX) -> SX:
     """Return ``condition`` with every relation in it replaced by the symbol of its frozen mode."""
+    if condition.numel() != 1:
+        return mapped(condition, lambda element: event_condition(scope, element))
     if condition.is_constant() or condition.is_symbolic():
         return condition
     op = condition.op()
@@ -180,6 +187,11 @@ def when(condition: SX, *statements: Any) -> When:
     if not statements:
         raise DeclarationError(
             "when() without statements", remedy="write what happens: when(condition, reinit(...), d == value)"
+        )
+    if SX(condition).numel() != 1:
+        raise DeclarationError(
+            f"the condition of when() is a column of {SX(condition).numel()}",
+            remedy="combine its elements by casadi.logic_or or logic_and, or write one when() for each",
         )
     return When(((event_condition(scope, SX(condition)), statements),))
 

@@ -17,6 +17,7 @@ from arthur_acausal.declare.model import Component, title_of
 from arthur_acausal.declare.sampled import Sampled
 from arthur_acausal.declare.scope import Atom, Scope, using
 from arthur_acausal.declare.statement import Connection, Reinit, Terminate, When
+from arthur_acausal.declare.vector import elements
 from arthur_acausal.errors import DeclarationError
 
 BoolArray = NDArray[np.bool_]
@@ -177,7 +178,23 @@ def _statements(component: Component, scope: Scope, method: str) -> Iterator[tup
         for i in range(made, len(scope.relations)):
             scope.relations[i] = replace(scope.relations[i], where=where)
         label, statement = item if isinstance(item, tuple) and len(item) == 2 else ("", item)
-        yield statement, label, where
+        if not isinstance(statement, SX) or statement.numel() == 1:
+            yield statement, label, where
+            continue
+        for k, element in enumerate(_rows(statement, component, where)):
+            yield element, f"{label}[{k}]" if label else "", where
+
+
+def _rows(statement: SX, component: Component, where: str) -> list[SX]:
+    """Return the equations of a column, one each."""
+    if statement.numel() and not statement.is_vector():
+        raise _bad(
+            component,
+            where,
+            f"{statement.size1()} x {statement.size2()} equations at once",
+            "yield them column by column: lhs[:, 0] == rhs[:, 0]",
+        )
+    return elements(statement)
 
 
 def _line(generator: Any) -> str:
@@ -207,7 +224,11 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
         block.connections.append((statement, where))
     elif isinstance(statement, When):
         for earlier, (condition, statements) in enumerate(statement.branches):
-            assignments = tuple(_assignment(s, where, component, scope) for s in statements)
+            assignments = tuple(
+                _assignment(each, where, component, scope)
+                for s in statements
+                for each in _scalars_of(s, where)
+            )
             tested = make_expression(condition, where, scope)
             block.clauses.append(Clause(tested, assignments, label, where, earlier))
     elif isinstance(statement, Sampled):
@@ -289,6 +310,24 @@ def _through(own: Expression, inputs: tuple[Expression, ...], present: BoolArray
             if there:
                 through.add(place)
     return Expression(own.value, symbols, atoms, frozenset(through))
+
+
+def _scalars_of(statement: Any, where: str) -> list[Any]:
+    """Return what a statement in ``when`` says of each element of a vector."""
+    if isinstance(statement, SX):
+        return elements(statement)
+    if not isinstance(statement, Reinit) or statement.target.numel() == statement.value.numel() == 1:
+        return [statement]
+    targets, values = elements(statement.target), elements(statement.value)
+    if len(values) not in (1, len(targets)):
+        raise DeclarationError(
+            f"reinit() of {len(targets)} states to {len(values)} values",
+            where=where,
+            remedy="give one value for all, or one for each",
+        )
+    return [
+        Reinit(x, value) for x, value in zip(targets, values * (len(targets) // len(values)), strict=True)
+    ]
 
 
 def _assignment(statement: Any, where: str, component: Component, scope: Scope) -> Assignment:

@@ -10,6 +10,7 @@ from casadi import SX
 from arthur_acausal.declare.model import Component, Connector, Model, title_of
 from arthur_acausal.declare.quantity import Quantity
 from arthur_acausal.declare.scope import Scope
+from arthur_acausal.declare.vector import elements
 from arthur_acausal.errors import ConnectError, UnitError
 from arthur_acausal.units import format_dimension, parse_unit
 
@@ -76,7 +77,15 @@ def join(a: object, b: object, owner: Component, scope: Scope, where: str, found
     if isinstance(a, Connector) and isinstance(b, Connector):
         _join_connectors(a, b, owner, where, found)
     elif isinstance(a, SX) and isinstance(b, SX):
-        _join_signals(a, b, owner, scope, where, found)
+        if a.shape != b.shape:
+            raise ConnectError(
+                f"{a} has {a.numel()} elements, but {b} {b.numel()}",
+                path=title_of(owner),
+                where=where,
+                remedy="connect signals of one shape, or elements: connect(self.a.y[0], self.b.u)",
+            )
+        for each in zip(elements(a), elements(b), strict=True):
+            _join_signals(*each, owner, scope, where, found)
     else:
         raise ConnectError(
             f"{_told(a)} and {_told(b)}: a connector and a signal cannot be connected",

@@ -57,7 +57,7 @@ def read_settings(model: type[Any], texts: Iterable[str]) -> Settings:
 
 def required_parameters(model: type[Any]) -> set[str]:
     """Parameters of a model class itself that have no default."""
-    quantities = model._declarations.quantities
+    quantities = model._declarations.written
     return {name for name, q in quantities.items() if q.kind == "parameter" and q.default is None}
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import count, takewhile
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -108,9 +109,16 @@ class Solution:
     # --- values
 
     def __getitem__(self, path: str) -> FloatArray:
+        """Values (nt,) of a variable, or (nt, n) of a vector of n."""
         if path not in self._columns:
+            if path not in self.variables and f"{path}[0]" in self.variables:
+                return self.values(self._elements(path))
             self._fetch([require(path, self.variables)])
         return self._columns[path]
+
+    def _elements(self, vector: str) -> list[str]:
+        every = (f"{vector}[{k}]" for k in count())
+        return list(takewhile(self.variables.__contains__, every))
 
     def __contains__(self, path: object) -> bool:
         return path in self.variables

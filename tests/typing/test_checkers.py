@@ -17,6 +17,7 @@ ROOT = Path(__file__).parents[2]
 SNIPPET = '''
 from typing import Any, assert_type
 
+import numpy as np
 import pint
 from casadi import SX, sqrt
 
@@ -86,6 +87,24 @@ class Bench(Component):
         yield connect(self.first.port_b, self.items[0].port_a)
 
 
+class Cloud(Component):
+    """Vectors, which take one value for all elements or a sequence, and are columns."""
+
+    n: int = 3
+    g: Real = parameter("m/s^2", shape=3, default=[0.0, 0.0, -9.81], min=-10.0)
+    m: Real = parameter("kg", shape=lambda self: self.n, default=lambda self: [1.0] * self.n)
+    v: Real = variable("m/s", shape=3, start=[0.0, "1 km/h", 0.0], nominal=[1.0, 2.0, 3.0])
+
+    def equations(self) -> Equations:
+        assert_type(self.v, SX)
+        yield der(self.v) == self.g
+
+
+Cloud(g=0.0, m=[1.0, 2.0, 3.0], v=start(["1 m/s", 0.0, 0.0], fixed=True, nominal=[1.0, 1.0, 1.0]))
+Cloud(g=np.zeros(3), v=[0.0, 0.0, 0.0])
+Cloud(g=[None, 0.0, 0.0])  # mypy: list-item  # pyright: reportArgumentType
+variable("m", shape="3")  # mypy: arg-type  # pyright: reportArgumentType
+
 assert_type(Orifice.area, Real)
 assert_type(translate(Bench(n=3)), Translation)
 assert_type(simulate(Bench(n=3), 1.0), Solution)
@@ -95,7 +114,7 @@ Orifice(liquid=Liquid(rho=900.0), area=1e-6)
 Orifice()  # mypy: call-arg  # pyright: reportCallIssue
 Orifice(1e-6)  # mypy: arg-type, call-arg  # pyright: reportCallIssue
 Orifice(aera=1e-6, area=1e-6)  # mypy: call-arg  # pyright: reportCallIssue
-Orifice(area=[1e-6])  # mypy: arg-type  # pyright: reportArgumentType
+Orifice(area={1e-6})  # mypy: arg-type  # pyright: reportArgumentType
 Orifice(area=None)  # mypy: arg-type  # pyright: reportArgumentType
 Orifice(area=1e-6, smooth="yes")  # mypy: arg-type  # pyright: reportArgumentType
 Orifice(area=1e-6, liquid=Other())  # mypy: arg-type  # pyright: reportArgumentType
