@@ -36,7 +36,16 @@ PILOTS = (1e-4, 1e-6)  # relative tolerances of the runs that find magnitudes
 UNKNOWN = (1.0, 1e-6, 1e-12)  # magnitudes to try for a variable that starts at zero
 LOST = 1e-14  # of its largest value: what is left of a variable below this is of no account
 VALUE_TUBE, TIME_TUBE = 1e-3, 2e-3  # shares of a signal's range and of the time span
-LIBRARY = ("blocks", "circuits", "electrical", "mechanics", "rotational", "thermal", "translational")
+LIBRARY = (
+    "blocks",
+    "circuits",
+    "drives",
+    "electrical",
+    "mechanics",
+    "rotational",
+    "thermal",
+    "translational",
+)
 NOT_BUILT = "not built"
 Tube = tuple[float, float]
 

@@ -45,7 +45,16 @@ class StickSlip(Component):
     direction: Real = discrete("1", description="branch of the sliding friction; 0: locked or free")
     started: Real = discrete("1", description="1 after the initialisation")
 
-    def branches(self, speed: SX, sa: SX, least: SX, most: SX, unit: SX, free: SX | None = None) -> Equations:
+    def branches(
+        self,
+        speed: SX,
+        sa: SX,
+        least: SX,
+        most: SX,
+        unit: SX,
+        free: SX | None = None,
+        stop: SX | float = 0.0,
+    ) -> Equations:
         """Yield the discrete equations.
 
         ``unit``: any speed but zero. ``sa``: path parameter, in the unit of the friction. ``least``: sliding friction
@@ -54,11 +63,13 @@ class StickSlip(Component):
         is_free = truth(free) if free is not None else SX(0.0)
         was = pre(self.mode)
         forward, backward = self.moving(speed, unit)
+        may_go, may_return = SX(stop) < 1, SX(stop) > -1
+        forward, backward = all_of(may_go, forward), all_of(may_return, backward)
         pull, push = torn(any_of(self.locked, self.start_forward, self.start_backward), sa)
         still_pull, still_push = torn(any_of(self.start_forward, self.start_backward), sa)
         kept = (1 - HYSTERESIS) * least
-        over, still_over = truth(pull > most), truth(still_pull > kept)
-        under, still_under = truth(push < -most), truth(still_push < -kept)
+        over, still_over = (all_of(may_go, truth(b)) for b in (pull > most, still_pull > kept))
+        under, still_under = (all_of(may_return, truth(b)) for b in (push < -most, still_push < -kept))
         yield self.started == (was != UNKNOWN)
         yield self.start_forward == starting(was, forward, over, still_over, pre(self.start_forward))
         yield self.start_backward == starting(was, backward, under, still_under, pre(self.start_backward))

@@ -193,7 +193,8 @@ class KinematicPTP(Source):
 class TimeTable(Source):
     """Linear interpolation of ``values`` (in the unit of y) over ``times`` [s]; constant outside.
 
-    Both are structural: tuples of equal length, times increasing. ``events``: whether each corner is an
+    Both are structural: tuples of equal length, times increasing; a time that stands twice is a jump, which needs
+    ``events``: whether each corner is an
     event; without, the integrator's error control finds the corners. For long tables give an external input
     instead.
     """

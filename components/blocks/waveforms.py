@@ -40,12 +40,16 @@ def pulse(start: SX, begun: SX, width: SX) -> SX:
 
 
 def piecewise_linear(x: SX, xs: Sequence[float], ys: Sequence[float], events: bool = False) -> SX:
-    """Return the linear interpolation of ``ys`` over ``xs`` at ``x``, constant outside; each corner may be an event."""
+    """Return the linear interpolation of ``ys`` over ``xs`` at ``x``, constant outside; each corner may be an event.
+
+    A place that stands twice is a jump.
+    """
     choose = if_else if events else smooth_if_else
     shape = SX(ys[-1])
     points = list(zip(xs, ys, strict=True))
     for (x0, y0), (x1, y1) in reversed(list(pairwise(points))):
-        shape = choose(x < x1, y0 + (y1 - y0) * (x - x0) / (x1 - x0), shape)
+        if x1 > x0:
+            shape = choose(x < x1, y0 + (y1 - y0) * (x - x0) / (x1 - x0), shape)
     return choose(x < xs[0], ys[0], shape)
 
 

@@ -1,6 +1,12 @@
 """Rotational mechanics in one dimension."""
 
 from arthur_acausal.components.rotational.backlash import ElastoBacklash
+from arthur_acausal.components.rotational.braking import (
+    EddyCurrentTorque,
+    InverseTorque,
+    LinearTorque,
+    SignTorque,
+)
 from arthur_acausal.components.rotational.elements import (
     Compliant,
     Damper,
@@ -12,7 +18,7 @@ from arthur_acausal.components.rotational.elements import (
 )
 from arthur_acausal.components.rotational.flange import Flange
 from arthur_acausal.components.rotational.friction import BearingFriction, Brake, Clutch, OneWayClutch
-from arthur_acausal.components.rotational.gears import IdealGear, IdealGearR2T, LossyGear
+from arthur_acausal.components.rotational.gears import IdealGear, IdealGearR2T, IdealPlanetary, LossyGear
 from arthur_acausal.components.rotational.sensors import (
     AccelerationSensor,
     AngleSensor,
@@ -30,6 +36,7 @@ from arthur_acausal.components.rotational.sources import (
     SpeedSource,
     TorqueSource,
 )
+from arthur_acausal.components.rotational.vehicle import Vehicle
 
 __all__ = [
     "AccelerationSensor",
@@ -43,22 +50,28 @@ __all__ = [
     "ConstantTorque",
     "Damper",
     "Disc",
+    "EddyCurrentTorque",
     "ElastoBacklash",
     "Fixed",
     "Flange",
     "IdealGear",
     "IdealGearR2T",
+    "IdealPlanetary",
     "Inertia",
+    "InverseTorque",
+    "LinearTorque",
     "LossyGear",
     "OneWayClutch",
     "PowerSensor",
     "QuadraticTorque",
     "RelativeAngleSensor",
     "RelativeSpeedSensor",
+    "SignTorque",
     "SpeedSensor",
     "SpeedSource",
     "Spring",
     "SpringDamper",
     "TorqueSensor",
     "TorqueSource",
+    "Vehicle",
 ]

@@ -5,10 +5,11 @@ from __future__ import annotations
 from casadi import fmax, fmin
 
 from arthur_acausal import Equations, Real, der, if_else, parameter, smooth_if_else, variable
+from arthur_acausal.components.heating import Heating
 from arthur_acausal.components.rotational.elements import Compliant
 
 
-class ElastoBacklash(Compliant):
+class ElastoBacklash(Heating, Compliant):
     """A play of ``b`` [rad] in series with a spring ``c`` and damper ``d`` that act while there is contact.
 
     In contact the torque is c depth + d w_rel, where the damper neither pulls nor exceeds the spring's own torque in
@@ -24,7 +25,6 @@ class ElastoBacklash(Compliant):
     depth: Real = variable("rad", description="deflection in contact; 0 within the play")
     tau_c: Real = variable("N*m", description="spring's part")
     tau_d: Real = variable("N*m", description="damper's part")
-    P_loss: Real = variable("W", description="power turned to heat")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -39,3 +39,4 @@ class ElastoBacklash(Compliant):
         yield "damper in contact", self.tau_d == smooth_if_else(self.depth > 0, pushing, pulling)
         yield self.tau == self.tau_c + self.tau_d
         yield self.P_loss == self.tau_d * self.w_rel
+        yield from self.heat()

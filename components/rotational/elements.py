@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from arthur_acausal import Component, Equations, Real, der, parameter, variable
+from arthur_acausal.components.heating import Heating
 from arthur_acausal.components.rotational.flange import Flange
 
 
@@ -69,21 +70,21 @@ class Spring(Compliant):
         yield self.E_elastic == self.c * (self.phi_rel - self.phi_rel0) ** 2 / 2
 
 
-class Damper(Compliant):
+class Damper(Heating, Compliant):
     """A linear torsion damper: tau = d der(phi_rel). ``d`` [N m s/rad]."""
 
     d: Real = parameter("N*m*s/rad", min=0.0)
     w_rel: Real = variable("rad/s", description="speed of flange_b relative to flange_a")
-    P_loss: Real = variable("W", description="power turned to heat")
 
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.w_rel == der(self.phi_rel)
         yield "linear damping", self.tau == self.d * self.w_rel
         yield self.P_loss == self.d * self.w_rel**2
+        yield from self.heat()
 
 
-class SpringDamper(Compliant):
+class SpringDamper(Heating, Compliant):
     """A torsion spring and damper side by side: tau = c (phi_rel - phi_rel0) + d der(phi_rel)."""
 
     c: Real = parameter("N*m/rad", min=0.0)
@@ -95,6 +96,8 @@ class SpringDamper(Compliant):
         yield from super().equations()
         yield self.w_rel == der(self.phi_rel)
         yield "spring and damper", self.tau == self.c * (self.phi_rel - self.phi_rel0) + self.d * self.w_rel
+        yield self.P_loss == self.d * self.w_rel**2
+        yield from self.heat()
 
 
 class Fixed(Component):

@@ -26,12 +26,13 @@ from arthur_acausal.components.friction import (
     torn,
     truth,
 )
+from arthur_acausal.components.heating import Heating
 from arthur_acausal.components.rotational.elements import Compliant
 from arthur_acausal.components.rotational.flange import Flange
 from arthur_acausal.components.rotational.support import Supported
 
 
-class _Bearing(StickSlip, Supported):
+class _Bearing(StickSlip, Heating, Supported):
     """A shaft through a housing that rubs on it: what bearing friction and brake share.
 
     ``tau`` is positive against positive ``w``, the shaft's speed over the housing.
@@ -46,7 +47,6 @@ class _Bearing(StickSlip, Supported):
     a: Real = variable("rad/s^2", description="its acceleration")
     tau: Real = variable("N*m", description="friction torque, positive against positive w")
     sa: Real = variable("N*m", description="path parameter of the friction characteristic")
-    P_loss: Real = variable("W", description="power turned to heat")
 
     def rubbing(self, least: SX, most: SX, ahead: SX, back: SX, free: SX | None = None) -> Equations:
         """Yield all equations for the friction's values: at speed zero, and sliding ``ahead`` and ``back``."""
@@ -59,6 +59,7 @@ class _Bearing(StickSlip, Supported):
         yield "stuck or sliding", self.J_path * self.a == self.excess(self.sa, most)
         yield "friction torque", self.tau == self.friction(self.sa, ahead, back)
         yield self.P_loss == self.tau * self.w
+        yield from self.heat()
         if self.use_support:
             yield self.support.tau + self.flange_a.tau + self.flange_b.tau == 0
 
@@ -107,7 +108,7 @@ class Brake(_Bearing):
         yield from self.rubbing(least, self.peak * least, ahead, back, self.f_n <= 0)
 
 
-class Clutch(StickSlip, Compliant):
+class Clutch(StickSlip, Heating, Compliant):
     """Two shafts pressed together with the normal force f_n = f_n_max f_normalized.
 
     Sliding: tau = c_geo mu(w_rel) f_n; stuck: up to ``peak`` c_geo mu(0) f_n. Without normal force it is free (mode
@@ -126,7 +127,6 @@ class Clutch(StickSlip, Compliant):
     a_rel: Real = variable("rad/s^2", description="its acceleration")
     f_n: Real = variable("N", description="normal force")
     sa: Real = variable("N*m", description="path parameter of the friction characteristic")
-    P_loss: Real = variable("W", description="power turned to heat")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -142,9 +142,10 @@ class Clutch(StickSlip, Compliant):
         yield "stuck or sliding", self.J_path * self.a_rel == self.excess(self.sa, most)
         yield "friction torque", self.tau == self.friction(self.sa, ahead, back)
         yield self.P_loss == self.tau * self.w_rel
+        yield from self.heat()
 
 
-class OneWayClutch(Compliant):
+class OneWayClutch(Heating, Compliant):
     """A freewheel, with a clutch beside it: flange_b may run ahead of flange_a, it cannot fall behind.
 
     While ``w_rel`` > 0 the clutch rubs with c_geo mu(w_rel) f_n; at ``w_rel`` = 0 the two turn together as long as
@@ -167,7 +168,6 @@ class OneWayClutch(Compliant):
     a_rel: Real = variable("rad/s^2", description="its acceleration")
     f_n: Real = variable("N", description="normal force")
     sa: Real = variable("N*m", description="path parameter of the friction characteristic")
-    P_loss: Real = variable("W", description="power turned to heat")
     stuck: Real = discrete("1", start=-1.0, description="1: no relative speed")
     start_forward: Real = discrete("1", description="1: sliding begins at speed zero")
     locked: Real = discrete("1", description="1: the flanges turn together")
@@ -187,6 +187,7 @@ class OneWayClutch(Compliant):
         yield "stuck or sliding", self.J_path * self.a_rel == smooth_if_else(self.locked, 0, self.sa - least)
         yield "friction torque", self.tau == smooth_if_else(self.locked, self.sa, rubbing)
         yield self.P_loss == smooth_if_else(self.stuck, 0, self.tau * self.w_rel)
+        yield from self.heat()
 
     def _branches(self, least: SX, most: SX) -> Equations:
         held = all_of(self.started, self.locked)  # the speed is rounding, whose sign would make events

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from casadi import SX, fabs, logic_not
 
-from arthur_acausal import Equations, Real, der, parameter, pre, smooth_if_else, variable
+from arthur_acausal import Component, Equations, Real, der, parameter, pre, smooth_if_else, variable
 from arthur_acausal.components.friction import (
     BACKWARD,
     FORWARD,
@@ -19,6 +19,7 @@ from arthur_acausal.components.friction import (
     torn,
     truth,
 )
+from arthur_acausal.components.heating import Heating
 from arthur_acausal.components.rotational.flange import Flange
 from arthur_acausal.components.rotational.support import Supported
 from arthur_acausal.components.translational.flange import Flange as SlidingFlange
@@ -71,7 +72,25 @@ class IdealGearR2T(Supported):
             yield self.support_t.f + t.f == 0
 
 
-class LossyGear(StickSlip, Supported):
+class IdealPlanetary(Component):
+    """A planetary gear without loss or inertia: (1 + ratio) phi_carrier = phi_sun + ratio phi_ring.
+
+    ``ratio`` [1]: teeth of the ring over teeth of the sun. Willis's equation; three flanges, any of which may be held.
+    """
+
+    sun = Flange()
+    carrier = Flange()
+    ring = Flange()
+    ratio: Real = parameter("1", min=0.0, description="teeth of the ring over those of the sun")
+
+    def equations(self) -> Equations:
+        s, c, r = self.sun, self.carrier, self.ring
+        yield "Willis's equation", (1 + self.ratio) * c.phi == s.phi + self.ratio * r.phi
+        yield r.tau == self.ratio * s.tau
+        yield c.tau == -(1 + self.ratio) * s.tau
+
+
+class LossyGear(StickSlip, Heating, Supported):
     """A gear with mesh efficiency and bearing friction, which may lock.
 
     ``losses``: tuple of (speed / ``w_unit``, eta_1, eta_2, tau_1 / ``tau_unit``, tau_2 / ``tau_unit``), speeds |w_a|
@@ -96,7 +115,6 @@ class LossyGear(StickSlip, Supported):
     tau_loss: Real = variable("N*m", description="torque lost, over flange_a")
     tau_forward: Real = variable("N*m", description="what is lost where the gear turns forward")
     tau_backward: Real = variable("N*m", description="what is lost where the gear turns backward")
-    P_loss: Real = variable("W", description="power turned to heat")
 
     def equations(self) -> Equations:
         a, b = self.flange_a, self.flange_b
@@ -106,6 +124,7 @@ class LossyGear(StickSlip, Supported):
         yield self.a_a == der(self.w_a)
         yield "torque balance", b.tau + self.ratio * (a.tau - self.tau_loss) == 0
         yield self.P_loss == self.tau_loss * self.w_a
+        yield from self.heat()
         if self.use_support:
             yield self.support.tau + a.tau + b.tau == 0
         yield from self._branches()

@@ -1,5 +1,11 @@
 """Translational mechanics in one dimension."""
 
+from arthur_acausal.components.translational.braking import (
+    EddyCurrentForce,
+    InverseForce,
+    LinearForce,
+    SignForce,
+)
 from arthur_acausal.components.translational.elements import (
     Compliant,
     Damper,
@@ -12,7 +18,12 @@ from arthur_acausal.components.translational.elements import (
     SpringDamper,
 )
 from arthur_acausal.components.translational.flange import Flange
-from arthur_acausal.components.translational.friction import Brake, MassWithFriction, SupportFriction
+from arthur_acausal.components.translational.friction import (
+    Brake,
+    MassWithFriction,
+    MassWithStopAndFriction,
+    SupportFriction,
+)
 from arthur_acausal.components.translational.sensors import (
     AccelerationSensor,
     ForceSensor,
@@ -42,16 +53,20 @@ __all__ = [
     "ConstantForce",
     "ConstantSpeed",
     "Damper",
+    "EddyCurrentForce",
     "ElastoGap",
     "EndStops",
     "Fixed",
     "Flange",
     "ForceSensor",
     "ForceSource",
+    "InverseForce",
     "Lever",
+    "LinearForce",
     "LoadForce",
     "Mass",
     "MassWithFriction",
+    "MassWithStopAndFriction",
     "PositionSensor",
     "PositionSource",
     "PowerSensor",
@@ -59,6 +74,7 @@ __all__ = [
     "RelativePositionSensor",
     "RelativeSpeedSensor",
     "Rod",
+    "SignForce",
     "SlidingMass",
     "SpeedSensor",
     "SpeedSource",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from arthur_acausal import Component, Equations, Real, der, parameter, variable
+from arthur_acausal.components.heating import Heating
 from arthur_acausal.components.translational.flange import Flange
 
 
@@ -101,21 +102,21 @@ class Spring(Compliant):
         yield self.E_elastic == self.c * (self.s_rel - self.s_rel0) ** 2 / 2
 
 
-class Damper(Compliant):
+class Damper(Heating, Compliant):
     """A linear damper: f = d der(s_rel). ``d`` [N s/m]."""
 
     d: Real = parameter("N*s/m", min=0.0)
     v_rel: Real = variable("m/s", description="velocity of flange_b relative to flange_a")
-    P_loss: Real = variable("W", description="power turned to heat")
 
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.v_rel == der(self.s_rel)
         yield "linear damping", self.f == self.d * self.v_rel
         yield self.P_loss == self.d * self.v_rel**2
+        yield from self.heat()
 
 
-class SpringDamper(Compliant):
+class SpringDamper(Heating, Compliant):
     """A spring and a damper side by side: f = c (s_rel - s_rel0) + d der(s_rel)."""
 
     c: Real = parameter("N/m", min=0.0)
@@ -127,6 +128,8 @@ class SpringDamper(Compliant):
         yield from super().equations()
         yield self.v_rel == der(self.s_rel)
         yield "spring and damper", self.f == self.c * (self.s_rel - self.s_rel0) + self.d * self.v_rel
+        yield self.P_loss == self.d * self.v_rel**2
+        yield from self.heat()
 
 
 class Fixed(Component):

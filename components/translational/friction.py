@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
-from casadi import SX, exp
+from casadi import SX, exp, logic_and
 
-from arthur_acausal import Equations, Real, der, parameter, real_input, variable
+from arthur_acausal import (
+    Equations,
+    Real,
+    der,
+    discrete,
+    parameter,
+    real_input,
+    reinit,
+    variable,
+    when,
+)
 from arthur_acausal.components.friction import Points, StickSlip, at_zero, interpolated
+from arthur_acausal.components.heating import Heating
 from arthur_acausal.components.translational.flange import Flange
 from arthur_acausal.components.translational.support import Supported
 
 
-class _Guide(StickSlip, Supported):
+class _Guide(StickSlip, Heating, Supported):
     """A rod through a housing that rubs on it: what guide friction and brake share.
 
     ``f`` is positive against positive ``v``, the rod's velocity over the housing.
@@ -25,7 +36,6 @@ class _Guide(StickSlip, Supported):
     a: Real = variable("m/s^2", description="its acceleration")
     f: Real = variable("N", description="friction force, positive against positive v")
     sa: Real = variable("N", description="path parameter of the friction characteristic")
-    P_loss: Real = variable("W", description="power turned to heat")
 
     def rubbing(self, least: SX, most: SX, ahead: SX, back: SX, free: SX | None = None) -> Equations:
         """Yield all equations for the friction's values: at speed zero, and sliding ``ahead`` and ``back``."""
@@ -38,6 +48,7 @@ class _Guide(StickSlip, Supported):
         yield "stuck or sliding", self.m_path * self.a == self.excess(self.sa, most)
         yield "friction force", self.f == self.friction(self.sa, ahead, back)
         yield self.P_loss == self.f * self.v
+        yield from self.heat()
         if self.use_support:
             yield self.support.f + self.flange_a.f + self.flange_b.f == 0
 
@@ -86,7 +97,7 @@ class Brake(_Guide):
         yield from self.rubbing(least, self.peak * least, ahead, back, self.f_n <= 0)
 
 
-class MassWithFriction(StickSlip, Supported):
+class MassWithFriction(StickSlip, Heating, Supported):
     """A sliding mass with Stribeck friction on its support: f = F_C + F_v |v| + F_St exp(-f_exp |v|), against v.
 
     At rest it sticks up to F_C + F_St. States: ``s`` [m], ``v`` [m/s]. ``f_exp`` [s/m] says how fast the Stribeck
@@ -107,7 +118,6 @@ class MassWithFriction(StickSlip, Supported):
     a_rel: Real = variable("m/s^2", description="acceleration over the support")
     f: Real = variable("N", description="friction force, positive against positive v_rel")
     sa: Real = variable("N", description="path parameter of the friction characteristic")
-    P_loss: Real = variable("W", description="power turned to heat")
 
     def equations(self) -> Equations:
         yield self.s == self.flange.s
@@ -123,8 +133,67 @@ class MassWithFriction(StickSlip, Supported):
             self.f == self.friction(self.sa, self._law(self.v_rel), self._law(-self.v_rel)),
         )
         yield self.P_loss == self.f * self.v_rel
+        yield from self.heat()
         if self.use_support:
             yield self.support.f == -self.f
+
+    def _law(self, speed: SX) -> SX:
+        return self.F_C + self.F_v * speed + self.F_St * exp(-self.f_exp * speed)
+
+
+class MassWithStopAndFriction(StickSlip, Heating):
+    """A sliding mass of length ``L`` [m] with Stribeck friction on the ground, between two hard stops.
+
+    m v' = f_a + f_b - f, f = F_v v + (F_C + F_St exp(-f_exp |v|)) sign(v); at rest it sticks up to ``peak`` times
+    F_C + F_St. Where an end reaches ``s_min`` or ``s_max`` [m] the mass stops without rebound, an event: v and s
+    become those of the stop, and the stop holds it until a force pulls it off. States: ``s`` [m], ``v`` [m/s];
+    ``stop`` [1]: -1 at the lower stop, 1 at the upper one, 0 between. Start between the stops. Beater (1999), Entwurf
+    hydraulischer Maschinen, as in the Modelica Standard Library 4.1, MassWithStopAndFriction.
+    """
+
+    flange_a = Flange()
+    flange_b = Flange()
+    m: Real = parameter("kg", min=0.0, description="mass")
+    L: Real = parameter("m", default=0.0, description="length from flange_a to flange_b")
+    s_min: Real = parameter("m", default=-25.0)
+    s_max: Real = parameter("m", default=25.0)
+    F_C: Real = parameter("N", default=0.0, min=0.0, description="Coulomb friction")
+    F_v: Real = parameter("N*s/m", default=0.0, min=0.0, description="viscous friction")
+    F_St: Real = parameter("N", default=0.0, min=0.0, description="Stribeck effect at rest")
+    f_exp: Real = parameter("s/m", default=2.0, min=0.0, description="decay of the Stribeck effect")
+    peak: Real = parameter("1", default=1.001, min=1.0, description="largest force at rest over F_C + F_St")
+    v_unit: Real = parameter("m/s", default=1.0, description="any speed")
+    s: Real = variable("m", start=0.0, state_select="always", description="position of the middle")
+    v: Real = variable("m/s", start=0.0, state_select="always", description="velocity")
+    a: Real = variable("m/s^2", description="acceleration")
+    f: Real = variable("N", description="friction force, positive against positive v")
+    sa: Real = variable("N", description="path parameter of the friction characteristic")
+    stop: Real = discrete("1", description="-1, 1 at a stop, 0 between")
+
+    def equations(self) -> Equations:
+        half = self.L / 2
+        yield self.flange_a.s == self.s - half
+        yield self.flange_b.s == self.s + half
+        yield self.v == der(self.s)
+        yield self.a == der(self.v)
+        yield "Newton's second law", self.m * self.a == self.flange_a.f + self.flange_b.f - self.f
+        least = self.F_C + self.F_St
+        most = self.peak * least
+        yield from self.branches(self.v, self.sa, least, most, self.v_unit, stop=self.stop)
+        yield "stuck or sliding", self.m * self.a == self.excess(self.sa, most)
+        yield "friction force", self.f == self.friction(self.sa, self._law(self.v), self._law(-self.v))
+        yield self.P_loss == self.f * self.v
+        yield from self.heat()
+        low, high = self.s_min + half, self.s_max - half
+        yield (
+            when(
+                logic_and(self.s > high, self.v > 0), self.stop == 1, reinit(self.v, 0), reinit(self.s, high)
+            )
+            .elsewhen(
+                logic_and(self.s < low, self.v < 0), self.stop == -1, reinit(self.v, 0), reinit(self.s, low)
+            )
+            .elsewhen(self.stop * self.direction < -0.5, self.stop == 0)
+        )
 
     def _law(self, speed: SX) -> SX:
         return self.F_C + self.F_v * speed + self.F_St * exp(-self.f_exp * speed)

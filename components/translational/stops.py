@@ -16,11 +16,12 @@ from arthur_acausal import (
     variable,
     when,
 )
+from arthur_acausal.components.heating import Heating
 from arthur_acausal.components.translational.elements import Compliant
 from arthur_acausal.components.translational.flange import Flange
 
 
-class ElastoGap(Compliant):
+class ElastoGap(Heating, Compliant):
     """A spring and damper that act in compression only; it never pulls.
 
     While s_rel > s_rel0 [m] there is no force. In contact the force is c (s_rel - s_rel0) + d v_rel,
@@ -44,6 +45,8 @@ class ElastoGap(Compliant):
         limited = casadi.fmin(casadi.fmax(self.d * self.v_rel, self.f_c), -self.f_c)
         yield "damper in contact", self.f_d == limited
         yield self.f == self.f_c + self.f_d
+        yield self.P_loss == self.f_d * self.v_rel
+        yield from self.heat()
 
 
 class EndStops(Component):

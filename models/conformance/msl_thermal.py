@@ -7,11 +7,13 @@ Association and contributors, BSD-3-Clause.
 from __future__ import annotations
 
 from arthur_acausal import Component, Equations, Real, connect, parameter, start
-from arthur_acausal.components.blocks import Not, OnOffController, Ramp
+from arthur_acausal.components.blocks import Constant, Not, OnOffController, Pulse, Ramp
 from arthur_acausal.components.electrical import ConstantVoltage, Ground, HeatingResistor, IdealOpeningSwitch
 from arthur_acausal.components.thermal import (
+    Convection,
     FixedTemperature,
     HeatCapacitor,
+    PrescribedHeatFlow,
     TemperatureSensor,
     ThermalConductor,
 )
@@ -64,7 +66,41 @@ class ControlledTemperature(Component):
         yield connect(self.inverter.y, self.switch.control)
 
 
+class Motor(Component):
+    """A motor of two bodies, winding and core, under a load that changes (Motor)."""
+
+    T_ambient: Real = parameter("K", default=293.15)
+    losses: Pulse = Pulse.of("W")(amplitude=900.0, offset=100.0, duty=0.4, period=600.0, start_time=360.0)
+    constant: Constant = Constant.of("W")(k=500.0)
+    windingLosses = PrescribedHeatFlow(T_ref=368.15, alpha=3.03e-3)
+    coreLosses = PrescribedHeatFlow()
+    winding = HeatCapacitor(C=2500.0, T=start(lambda self: self.T_ambient, fixed=True))
+    core = HeatCapacitor(C=25000.0, T=start(lambda self: self.T_ambient, fixed=True))
+    winding2core = ThermalConductor(G=10.0)
+    Twinding = TemperatureSensor()
+    Tcore = TemperatureSensor()
+    convectionConstant: Constant = Constant.of("W/K")(k=25.0)
+    convection = Convection()
+    environment = FixedTemperature(T=lambda self: self.T_ambient)
+
+    def equations(self) -> Equations:
+        yield connect(self.losses.y, self.windingLosses.Q_flow)
+        yield connect(self.constant.y, self.coreLosses.Q_flow)
+        yield connect(self.convectionConstant.y, self.convection.Gc)
+        for port in (self.windingLosses.port, self.winding2core.port_a, self.Twinding.port):
+            yield connect(self.winding.port, port)
+        for port in (self.coreLosses.port, self.winding2core.port_b, self.Tcore.port, self.convection.port_a):
+            yield connect(self.core.port, port)
+        yield connect(self.convection.port_b, self.environment.port)
+
+
 _CASES = (
+    Case(
+        "msl_Thermal_HeatTransfer_Motor",
+        Motor,
+        {"Twinding.T": "Twinding.T_celsius", "Tcore.T": "Tcore.T_celsius"},
+        7200.0,
+    ),
     Case("msl_Thermal_HeatTransfer_TwoMasses", TwoMasses, {"mass1.T": "mass1.T", "mass2.T": "mass2.T"}, 1.0),
     Case(
         "msl_Thermal_HeatTransfer_ControlledTemperature",

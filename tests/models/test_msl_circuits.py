@@ -14,7 +14,7 @@ from arthur_acausal.models.conformance import msl_circuits as circuits
 from arthur_acausal.models.conformance.case import Case
 
 Floats = NDArray[np.float64]
-PRECISE = SolverOptions(rtol=1e-9, intervals=1000)
+PRECISE = SolverOptions(rtol=1e-8, intervals=1000)
 
 
 def run(name: str, stop_time: float) -> Solution:
