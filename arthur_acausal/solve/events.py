@@ -26,6 +26,7 @@ from arthur_acausal.solve.trajectory import Event
 AFTER = "check what reinit sets, and that the equations have a solution after the event"
 DIFFERENCE = 1e-7  # forward difference, relative to the time in which a state moves by its own magnitude
 NEARBY = 1e-3  # relative distance of the point where a change of law shows that the event itself hides
+UNMOVED = 1e-3  # part of the tolerance by which what a sample sets may move the unknowns at once
 TRUST = 10.0  # a relation that IDA found to change has changed while g is within so many tolerances of zero
 TRUSTED_PASSES = (
     10  # modes that go round because one of them is held so: from then on the present values decide
@@ -72,6 +73,8 @@ class EventIteration:
         self._scale = np.zeros(len(dae.relations))
         self._nearby = NEARBY * np.random.default_rng(0).uniform(0.5, 1.0, 2 * dae.n + 1)
         self._law = np.zeros(2 * dae.n)
+        self._modes_before = np.zeros(0, dtype=bool)
+        self._sampled = False
 
     def handle(
         self,
@@ -86,7 +89,8 @@ class EventIteration:
         just before the event.
         """
         evaluator, outcome = self._evaluator, Outcome(affected=inputs_jump)
-        before = evaluator.m > 0.5
+        self._modes_before = before = evaluator.m > 0.5
+        self._sampled = sample is not None
         self._law = self._laws()
         if sample is not None:
             sample()
@@ -122,12 +126,25 @@ class EventIteration:
         return outcome
 
     def _follow(self, outcome: Outcome, changed: bool) -> None:
-        """Solve for consistent values, unless F is what it was: then the event concerns discrete variables only."""
+        """Solve for consistent values, unless F is what it was: then the event concerns discrete variables only.
+
+        Where a sample only bends the course of F, as a first-order hold does, the values are consistent as they are:
+        the integration goes on, and its error test sees the bend.
+        """
         law = self._laws()
-        if changed or not np.array_equal(law, self._law, equal_nan=True):
+        if changed or not (self._bends(law) or np.array_equal(law, self._law, equal_nan=True)):
             self._solve(outcome)
             outcome.affected = True
-            self._law = self._laws()
+            law = self._laws()
+        self._law = law
+
+    def _bends(self, law: FloatArray) -> bool:
+        """Whether a sample has left F at the present values as it was, in the same modes; ``law``: as it is now."""
+        if not self._sampled or not np.array_equal(self._evaluator.m > 0.5, self._modes_before):
+            return False
+        here, near = np.split(self._law, 2)
+        allowed = UNMOVED * self._options.rtol * np.abs(near - here) / NEARBY
+        return bool(np.all(np.abs(law[: here.size] - here) <= allowed))
 
     def _laws(self) -> FloatArray:
         """F at the present values and near them: where a law has a kink, both sides of it agree at the event itself."""

@@ -226,7 +226,7 @@ class HybridRun:
         outcome = self._iteration.handle(flagged, near, jump, sample)
         self._schedule.update(t, t + near)
         self._affected = outcome.affected
-        if self._evaluator.external is not None:
+        if self._evaluator.external is not None and outcome.affected:
             self._evaluator.external.restart()
         self._stepping |= (bool(flagged) or due) and not outcome.affected
         if flagged or jump or due or outcome.events:
