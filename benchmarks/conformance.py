@@ -39,6 +39,7 @@ VALUE_TUBE, TIME_TUBE = 1e-3, 2e-3  # shares of a signal's range and of the time
 LIBRARY = (
     "blocks",
     "circuits",
+    "semiconductors",
     "drives",
     "electrical",
     "mechanics",

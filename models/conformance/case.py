@@ -24,6 +24,11 @@ WORDS = {
     "TheatPort": "heat_port.T",
     "flangeR": "flange_r",
     "flangeT": "flange_t",
+    "vbc": "v_BC",
+    "vbe": "v_BE",
+    "vcb": "v_BC",
+    "veb": "v_BE",
+    "vcs": "v_C",
 }
 """Names of the Modelica Standard Library that are others here."""
 
