@@ -9,6 +9,7 @@ import typer
 
 from arthur_acausal.cli.app import Debug, Input, Json, Model, Set, Start, app
 from arthur_acausal.cli.failure import reported
+from arthur_acausal.cli.study import study
 
 __all__ = ["app"]
 
@@ -314,3 +315,4 @@ def optimize(
         workers=workers,
     )
     typer.echo(carry_out(request, minimize, maximize, limits or (), output, population, generations, as_json))
+app.add_typer(study, name="study")

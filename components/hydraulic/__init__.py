@@ -35,6 +35,7 @@ from arthur_acausal.components.hydraulic.reservoir import GasReservoir
 from arthur_acausal.components.hydraulic.resistance import LaminarPipe, LinearResistance, Pipe
 from arthur_acausal.components.hydraulic.sensors import FlowSensor, PressureDifferenceSensor, PressureSensor
 from arthur_acausal.components.hydraulic.servo_valve import ServoValve
+from arthur_acausal.components.hydraulic.servo_valves import RotaryBody, RotaryValve, SpoolBody, SpoolValve
 from arthur_acausal.components.hydraulic.sources import (
     ControlledFlowSource,
     ControlledPressureSource,
@@ -93,12 +94,16 @@ __all__ = [
     "PumpSize",
     "Ram",
     "ReliefValve",
+    "RotaryBody",
+    "RotaryValve",
     "SequenceValve",
     "ServoValve",
     "ShuttleValve",
     "SignalFilter",
     "SpeedPump",
     "Spool",
+    "SpoolBody",
+    "SpoolValve",
     "SwitchedCheckValve",
     "Tank",
     "TwoPort",

@@ -1,0 +1,159 @@
+"""The figures of the valve study, with the report's axes and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from casadi import SX, Function
+from numpy.typing import NDArray
+
+from arthur_acausal import Solution
+from arthur_acausal.components.hydraulic.servo_valves import Shape, full_area, open_area
+from arthur_acausal.components.hydraulic.servo_valves.jets import von_mises
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+FloatArray = NDArray[np.float64]
+Curve = tuple[str, FloatArray, FloatArray]
+
+STYLES = ("-", "--", ":", "-.", (0, (6, 1, 1, 1, 1, 1)))
+OPENING = "valve opening ξ/$d_p$ [1]"
+
+
+def figures(rotary: Solution, spool: Solution) -> dict[str, Figure]:
+    """Return the report's figures by their file names."""
+    s, x = rotary["s"], spool["s"]
+
+    def torque(label: str, name: str) -> Curve:
+        return label, s, rotary[name] * 1e3
+
+    def work(label: str, name: str) -> Curve:
+        return label, s, rotary[name] * 1e6
+
+    return {
+        "figure-3-5": jet_angles(),
+        "figure-3-8": drawn(
+            [
+                torque("jets (3.31)", "T_jet"),
+                torque("bearing friction", "T_friction"),
+                torque("inertia", "T_inertia"),
+                torque("fluid film", "T_viscous"),
+            ],
+            "torque [mN m]",
+            "Rotary valve: from two fifths of the opening the jets' torque exceeds the friction",
+        ),
+        "figure-3-9": drawn(
+            [
+                work("total with jets", "W_with_jet"),
+                work("total without jets", "W_no_jet"),
+                work("jets", "W_jet"),
+                work("bearing friction", "W_friction"),
+                work("inertia", "W_inertia"),
+            ],
+            "work from closed [µJ]",
+            "Rotary valve: the jets take half of the work",
+        ),
+        "figure-3-13": drawn(
+            [
+                ("steady flow force", x, spool["F_steady"]),
+                ("film on the heads", x, spool["F_friction"]),
+                ("inertia", x, spool["F_inertia"]),
+            ],
+            "axial force [N]",
+            "Spool valve: the steady flow force leads up to four fifths of the opening",
+        ),
+        "figure-3-14": drawn(
+            [
+                ("total", x, spool["W"] * 1e6),
+                ("steady flow force", x, spool["W_steady"] * 1e6),
+                ("film on the heads", x, spool["W_friction"] * 1e6),
+                ("inertia", x, spool["W_inertia"] * 1e6),
+            ],
+            "work from the middle [µJ]",
+            "Spool valve: four fifths of the work go against the flow force",
+        ),
+        "figure-3-15": drawn(
+            [
+                work("rotary, with jets (3.31)", "W_with_jet"),
+                ("spool", x, spool["W"] * 1e6),
+                work("rotary, without jets", "W_no_jet"),
+            ],
+            "work to open [µJ]",
+            "To open fully, the rotary valve needs less work only without its jets",
+        ),
+        "figure-4-11": shapes(("tear drop", "house")),
+    }
+
+
+def jet_angles() -> Figure:
+    """Figure 3-5: von Mises' angle over the opening, drawn by its parameter."""
+    phi = SX.sym("phi")
+    numerator, denominator = von_mises(phi, SX(1.0))
+    limits = (21.1313, 68.86874)
+    angles = np.radians(np.linspace(limits[0], limits[1], 4000))
+    ratio = np.asarray(Function("ratio", [phi], [numerator / denominator])(angles)).ravel()
+    shown = (ratio >= 0) & (ratio <= 30)
+    figure = drawn(
+        [("3.6", ratio[shown], np.degrees(angles[shown]))],
+        "jet angle φ [deg]",
+        "The jet leaves at 66° from ten clearances on, never above 68.9°",
+        "opening over clearance x/$δ_r$ [1]",
+    )
+    axes = figure.axes[0]
+    for limit in limits:
+        axes.axhline(limit, color="0.6", linewidth=0.8, zorder=0.5)
+    return figure
+
+
+def shapes(names: Sequence[Shape]) -> Figure:
+    """Figure 4-11: open area of a passage over the opening, both as shares."""
+    s = np.linspace(0.0, 1.0, 401)
+    curves = [(name, s, share(name, s)) for name in names]
+    figure = drawn(
+        [*curves, ("linear", s, s)],
+        "open area over the full area [1]",
+        "The house opens more linearly than the tear drop",
+        "relative opening [1]",
+    )
+    axes = figure.axes[0]
+    axes.text(
+        0.97,
+        0.05,
+        "\n".join(f"{name}: off by {deviation(name):.4f} at most" for name in names),
+        transform=axes.transAxes,
+        ha="right",
+    )
+    return figure
+
+
+def share(shape: Shape, s: FloatArray) -> FloatArray:
+    """Return the open share of a passage's area where the share ``s`` of its width is open."""
+    x = SX.sym("s")
+    return np.asarray(Function("A", [x], [open_area(shape, x)])(s)).ravel() / full_area(shape)
+
+
+def deviation(shape: Shape) -> float:
+    """Return the largest deviation [1] of the open share from linear."""
+    s = np.linspace(0.0, 1.0, 20001)
+    return float(np.abs(share(shape, s) - s).max())
+
+
+def drawn(curves: Sequence[Curve], ylabel: str, title: str, xlabel: str = OPENING) -> Figure:
+    """Return a figure of black lines, told apart by their dashes and named at their side."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7.2, 4.4), layout="constrained")
+    axes: Axes = figure.subplots()
+    for k, (label, x, y) in enumerate(curves):
+        axes.plot(x, y, color="black", linestyle=STYLES[k % len(STYLES)], linewidth=1.6, label=label)
+    axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(curves[0][1].min(), curves[0][1].max()))
+    axes.set_title(title, fontsize=10.5, loc="left")
+    axes.grid(color="0.9", linewidth=0.6)
+    axes.spines[["top", "right"]].set_visible(False)
+    if len(curves) > 1:
+        axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return figure
