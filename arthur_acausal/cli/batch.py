@@ -315,4 +315,6 @@ def optimize(
         workers=workers,
     )
     typer.echo(carry_out(request, minimize, maximize, limits or (), output, population, generations, as_json))
+
+
 app.add_typer(study, name="study")
