@@ -1,0 +1,131 @@
+"""Where the time of the robot's trot goes, by clocks that stop each other: each moment counts for one part only.
+
+``factorisation`` is not seen from outside of IDA: it is the number of factorisations times what SUNDIALS' own dense
+factorisation takes for a matrix of this size and pattern; the rest of IDA's time is the ``solver``'s.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+
+from arthur_acausal.codegen.compiled import CompiledDAE
+from arthur_acausal.codegen.kernel import Kernel
+from arthur_acausal.models.arthur.walking import Walking
+from arthur_acausal.mujoco.dynamics import Dynamics
+from arthur_acausal.solve import callbacks, ida
+
+PARTS = ("MuJoCo", "residual", "Jacobian", "factorisation", "solver", "controller", "Python")
+REPETITIONS = 50
+
+
+class Clocks:
+    """The CPU time [s] of each part, without that of parts called from within it."""
+
+    def __init__(self) -> None:
+        self.seconds = dict.fromkeys(PARTS, 0.0)
+        self.factorisations = 0
+        self.start()
+
+    def start(self) -> None:
+        """Forget the time that has passed since the last switch."""
+        self._part, self._since = "Python", time.process_time()
+
+    def switch(self, part: str) -> str:
+        """Let the clock of another part run; return the one that ran."""
+        now = time.process_time()
+        self.seconds[self._part] += now - self._since
+        before, self._part, self._since = self._part, part, now
+        return before
+
+    def timed(self, function: Callable[..., Any], part: str | Callable[[Any], str]) -> Callable[..., Any]:
+        """Return the function with its time measured; ``part`` may depend on its first argument."""
+
+        def call(*arguments: Any, **named: Any) -> Any:
+            before = self.switch(part if isinstance(part, str) else part(arguments[0]))
+            try:
+                return function(*arguments, **named)
+            finally:
+                self.switch(before)
+
+        return call
+
+    def shares(self, dae: CompiledDAE) -> dict[str, float]:
+        """Return the part of each in all."""
+        seconds = dict(self.seconds)
+        # IDA factorises after each Jacobian
+        factorising = min(self.factorisations * factorisation_s(dae), seconds["solver"])
+        seconds["factorisation"] += factorising
+        seconds["solver"] -= factorising
+        total = sum(seconds.values())
+        return {part: value / total for part, value in seconds.items()}
+
+
+def kernel_part(kernel: Kernel) -> str:
+    """Return what a kernel counts as: its Jacobians are told by their names, all else evaluates equations."""
+    return "Jacobian" if "jacobian" in kernel.function.name() else "residual"
+
+
+@contextmanager
+def watching(clocks: Clocks) -> Iterator[None]:
+    """Measure all that is called within."""
+
+    def python(make: Callable[..., Any], counted: bool = False) -> Callable[..., Any]:
+        def made(*arguments: Any) -> Any:
+            function = clocks.timed(make(*arguments), "Python")
+
+            # the binding asks for the number of arguments
+            def residual(t: Any, y: Any, yp: Any, out: Any) -> None:
+                function(t, y, yp, out)
+
+            def jacobian(t: Any, y: Any, yp: Any, res: Any, cj: Any, out: Any) -> None:
+                clocks.factorisations += 1
+                function(t, y, yp, res, cj, out)
+
+            return jacobian if counted else residual
+
+        return made
+
+    with (
+        patch.object(Kernel, "__call__", clocks.timed(Kernel.__call__, kernel_part)),
+        patch.object(Dynamics, "forward", clocks.timed(Dynamics.forward, "MuJoCo")),
+        patch.object(Walking, "__call__", clocks.timed(Walking.__call__, "controller")),
+        patch.object(ida.Ida, "run", clocks.timed(ida.Ida.run, "solver")),
+        patch.object(ida.Ida, "step_through", clocks.timed(ida.Ida.step_through, "solver")),
+        patch.object(ida, "residual_callback", python(callbacks.residual_callback)),
+        patch.object(ida, "jacobian_callback", python(callbacks.jacobian_callback, counted=True)),
+        patch.object(callbacks.Roots, "callback", python(callbacks.Roots.callback)),
+    ):
+        clocks.start()
+        yield
+        clocks.switch("Python")
+
+
+def factorisation_s(dae: CompiledDAE) -> float:
+    """Return what SUNDIALS takes for one dense factorisation of a matrix with the pattern of this system [s]."""
+    import sksundae
+
+    package = Path(sksundae.__file__).parent
+    name = next((package.parent / "scikit_sundae.libs").glob("libsundials_core-*"), None)
+    factorise = ctypes.CDLL(str(name)).SUNDlsMat_denseGETRF
+    n = dae.n
+    rng = np.random.default_rng(0)
+    matrix = np.eye(n) * n
+    columns = np.repeat(np.arange(n), np.diff(dae.sparsity.colind))
+    matrix[columns, dae.sparsity.row] += rng.standard_normal(columns.size)  # by columns, as SUNDIALS has them
+    pivots = np.zeros(n, dtype=np.int64)
+    best = np.inf
+    for _ in range(REPETITIONS):
+        work = matrix.copy()
+        starts = (ctypes.c_void_p * n)(*(work.ctypes.data + 8 * n * j for j in range(n)))
+        begun = time.perf_counter()
+        factorise(starts, ctypes.c_int64(n), ctypes.c_int64(n), ctypes.c_void_p(pivots.ctypes.data))
+        best = min(best, time.perf_counter() - begun)
+    return float(best)
