@@ -4,6 +4,7 @@ from arthur_acausal.components.blocks.arithmetic import Add, Feedback, Gain, Lim
 from arthur_acausal.components.blocks.continuous import (
     PI,
     PID,
+    Der,
     Derivative,
     FirstOrder,
     Integrator,
@@ -13,6 +14,7 @@ from arthur_acausal.components.blocks.continuous import (
     SecondOrder,
 )
 from arthur_acausal.components.blocks.energy import EnergyMeter
+from arthur_acausal.components.blocks.filters import Filter
 from arthur_acausal.components.blocks.functions import (
     Abs,
     Acos,
@@ -51,6 +53,7 @@ from arthur_acausal.components.blocks.logical import (
     OnDelay,
     OnOffController,
     Or,
+    Pre,
     RSFlipFlop,
     Switch,
     Timer,
@@ -106,12 +109,14 @@ __all__ = [
     "CosineVariableFrequencyAndAmplitude",
     "CriticalDamping",
     "DeadZone",
+    "Der",
     "Derivative",
     "Division",
     "EnergyMeter",
     "Exp",
     "ExpSine",
     "Feedback",
+    "Filter",
     "FirstOrder",
     "Gain",
     "Greater",
@@ -134,6 +139,7 @@ __all__ = [
     "OnDelay",
     "OnOffController",
     "Or",
+    "Pre",
     "Product",
     "Pulse",
     "RSFlipFlop",

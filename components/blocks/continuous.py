@@ -81,6 +81,16 @@ class Derivative(SISO):
         yield self.x == self.u
 
 
+class Der(SISO):
+    """y = k der(u): what u follows must be differentiable. ``k`` [unit of y over u, times s]."""
+
+    _units = {"u": "{u}", "y": "{y}", "k": "({y})/({u})*s"}
+    k: Real = parameter("s", default=1.0)
+
+    def equations(self) -> Equations:
+        yield self.y == self.k * der(self.u)
+
+
 class FirstOrder(SISO):
     """T der(y) + y = k u. ``T`` [s]. State: ``y``, at first ``y_start``."""
 

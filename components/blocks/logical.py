@@ -68,6 +68,19 @@ class Xor(Logical2):
         yield self.y == self.u1 + self.u2 - 2 * self.u1 * self.u2
 
 
+class Pre(Logical):
+    """y = u just before: it breaks a loop of logical blocks. ``held`` [0 or 1]: u, at first ``pre_u_start``."""
+
+    pre_u_start: Real = parameter("1", default=0.0)
+    held: Real = discrete("1", start=lambda self: self.pre_u_start)
+    before: Real = discrete("1", start=lambda self: self.pre_u_start)
+
+    def equations(self) -> Equations:
+        yield self.held == truth(holds(self.u))
+        yield self.before == pre(self.held)
+        yield self.y == self.before
+
+
 class RSFlipFlop(Block):
     """q becomes 1 where the signal ``set`` is true, 0 where ``reset`` is, and stays otherwise; reset wins."""
 
