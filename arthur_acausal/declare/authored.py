@@ -7,11 +7,12 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
+from types import FrameType, TracebackType
 from typing import Any
 
 import casadi as ca
 
+from arthur_acausal.declare.absent import condition_of, none_in
 from arthur_acausal.errors import ArthurError, DeclarationError, nearest_or_all
 
 # Code between the author's line and what it asks for: this package's stages (not components and models), CasADi.
@@ -49,12 +50,15 @@ def defined_at(function: Any) -> str:
 
 def traced(error: BaseException) -> str:
     """Return file:line of the innermost line of the author's code that an error came through."""
-    found = ""
-    trace = error.__traceback__
+    found = _innermost(error)
+    return place(found.tb_frame.f_code.co_filename, found.tb_lineno) if found is not None else ""
+
+
+def _innermost(error: BaseException) -> TracebackType | None:
+    found, trace = None, error.__traceback__
     while trace is not None:
-        name = trace.tb_frame.f_code.co_filename
-        if not name.startswith(_BETWEEN):
-            found = place(name, trace.tb_lineno)
+        if not trace.tb_frame.f_code.co_filename.startswith(_BETWEEN):
+            found = trace
         trace = trace.tb_next
     return found
 
@@ -82,6 +86,8 @@ def _explained(error: Exception, what: str, path: str, where: str) -> Declaratio
         return _mismatch(shapes, what, path, where)
     if isinstance(error, AttributeError) and error.name and hasattr(error.obj, "_declarations"):
         return _attribute(error.obj, error.name, path, where)
+    if isinstance(error, AttributeError) and error.name and error.obj is None:
+        return _none(error, error.name, path, where)
     return DeclarationError(
         f"{what} failed: {error}",
         path=path,
@@ -114,7 +120,28 @@ def _truth(what: str, path: str, where: str) -> DeclarationError:
     )
 
 
+def _none(error: AttributeError, name: str, path: str, where: str) -> DeclarationError:
+    found = _innermost(error)
+    written, condition = none_in(found.tb_frame, found.tb_lineno, name) if found is not None else ("", "")
+    guard = condition or f"{written or 'the part'} is not None"
+    return DeclarationError(
+        f"{written or 'a part'} is absent: it is None, and has no {name!r}",
+        path=path,
+        where=where,
+        cause=f"build() makes it only if {condition}" if condition else "it was not given",
+        remedy=f"write `if {guard}:` around what uses it, or give it",
+    )
+
+
 def _attribute(model: Any, name: str, path: str, where: str) -> DeclarationError:
+    if condition := condition_of(type(model), name):
+        return DeclarationError(
+            f"{type(model).__name__} has no {name!r} here",
+            path=path,
+            where=where,
+            cause=f"build() makes it only if {condition}",
+            remedy=f"write `if {condition}:` around what uses it, or make the component so that it is there",
+        )
     known = model._declarations.names
     known += [n for n in model.__dict__ if not n.startswith("_") and n not in known]
     return DeclarationError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import NoneType
 from typing import Any
 
 from casadi import SX
@@ -54,13 +55,15 @@ def bind(template: Model, name: str, scope: Scope, owner: Model | None) -> Model
         with authored("the shape of a vector", path or type(bound).__name__, bound._where):
             bound.__dict__["_declarations"] = bound._declarations.sized(bound)
     _number_quantities(bound, binding)
+    parts = bound._declarations.parts | _optional_parts(bound)
     # records first: the other parts may be given them
-    for part, default in sorted(
-        bound._declarations.parts.items(), key=lambda item: not isinstance(item[1], Record)
-    ):
+    for part, default in sorted(parts.items(), key=lambda item: not isinstance(item[1], Record)):
         given = bound._modifications.get(part, default)
         if part in bound._modifications:
             binding.explicit.add(part)
+        if given is None and NoneType in constraint(type(bound), part):
+            bound.__dict__[part] = None
+            continue
         bound.__dict__[part] = _bind_part(
             bound, part, given, owner if part in bound._modifications else bound
         )
@@ -71,6 +74,12 @@ def bind(template: Model, name: str, scope: Scope, owner: Model | None) -> Model
             bound.build()
     binding.complete = True
     return bound
+
+
+def _optional_parts(bound: Model) -> dict[str, Model]:
+    """Return the parts that the class declares without one of its own: ``brake: Brake | None = None``."""
+    values = bound.__dict__
+    return {n: values[n] for n in bound._declarations.structural if isinstance(values[n], Model)}
 
 
 def adopt(owner: Model, name: str, value: Any) -> Any:
@@ -144,12 +153,14 @@ def _bind_part(owner: Model, name: str, given: Any, author: Model | None) -> Mod
 def _unbound(record: Record) -> Record:
     """Return a copy without a place; its values stand for nothing, since those of ``record`` count."""
     copy = type(record).__new__(type(record))
-    copy.__dict__.update(
-        {k: v for k, v in record.__dict__.items() if not isinstance(v, Model)}, _binding=None
+    copy.__dict__.update(record.__dict__, _binding=None)
+    copy.__dict__["_modifications"] = (
+        dict.fromkeys(
+            (n for n, q in record._declarations.quantities.items() if q.kind == "parameter"), SX(0.0)
+        )
+        | {n: v for n, v in record._modifications.items() if n in record._declarations.structural}
+        | {n: v for n, v in record.__dict__.items() if isinstance(v, Record)}
     )
-    copy.__dict__["_modifications"] = dict.fromkeys(
-        (n for n, q in record._declarations.quantities.items() if q.kind == "parameter"), SX(0.0)
-    ) | {n: v for n, v in record._modifications.items() if n in record._declarations.structural}
     return copy
 
 
@@ -158,7 +169,7 @@ def _check_constraint(bound: Model, part: str) -> None:
     wanted = constraint(type(bound), part)
     given = bound.__dict__[part]
     if wanted and not isinstance(given, wanted):
-        names = " or ".join(kind.__name__ for kind in wanted)
+        names = " or ".join("None" if kind is NoneType else kind.__name__ for kind in wanted)
         raise DeclarationError(
             f"{type(bound).__name__}.{part} must be a {names}, which {type(given).__name__} is not",
             path=bound._binding.path if bound._binding else "",

@@ -6,7 +6,8 @@ import inspect
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, TypeAlias, dataclass_transform
+from types import NoneType
+from typing import Any, ClassVar, TypeAlias, dataclass_transform, get_args
 
 from casadi import SX
 
@@ -120,16 +121,21 @@ def _numbered(written: dict[str, Real], vectors: dict[str, int]) -> dict[str, An
 
 
 def constraint(cls: type, name: str) -> tuple[type, ...]:
-    """Return the classes that the annotation of a part names; none where they cannot be found by their names."""
+    """Return the classes that the annotation of a part names; none where they cannot be found by their names.
+
+    NoneType is one of them where the part may be absent.
+    """
     for base in cls.__mro__:
         annotation = inspect.get_annotations(base).get(name)
         if annotation is None:
             continue
         if isinstance(annotation, type):
             return (annotation,)
+        if not isinstance(annotation, str):
+            return tuple(k for k in get_args(annotation) if isinstance(k, type))
         module = sys.modules.get(base.__module__)  # a notebook's or a page's may be none
-        known = vars(module) if module is not None else {}
-        found = [known.get(text.strip()) for text in str(annotation).strip("\"'").split("|")]
+        known = {"None": NoneType, **(vars(module) if module is not None else {})}
+        found = [known.get(text.strip()) for text in annotation.strip("\"'").split("|")]
         return (
             tuple(k for k in found if isinstance(k, type)) if all(isinstance(k, type) for k in found) else ()
         )
@@ -172,6 +178,7 @@ class Model:
         for name, default in declared.structural.items():
             if name in modifications or default is not MISSING:
                 self.__dict__[name] = modifications.get(name, default)
+        self.__dict__.update((n, given) for n, given in modifications.items() if isinstance(given, Record))
 
     def _symbol(self, quantity: Real) -> SX:
         binding = self._binding

@@ -171,6 +171,8 @@ def connect(a: Any, b: Any) -> Connection:
 
 def _connectable(side: Any) -> str:
     """Return a hint at what of ``side`` can be connected."""
+    if side is None:
+        return "a part that may be absent is connected under a condition: `if self.part is not None:`"
     if not isinstance(side, Model):
         return "connect connectors (self.a.port), or an output with an input"
     kinds = {"input", "output"}

@@ -86,7 +86,7 @@ def _part(value: Any, k: int, size: int, name: str) -> Any:
     """Return what of a value belongs to element k: one value for all, or one each."""
     if isinstance(value, Start):
         return Start(*(_part(x, k, size, name) for x in (value.value, value.fixed, value.nominal)))
-    if callable(value) and not hasattr(value, "dimensionality") and not isinstance(value, SX):
+    if _is_function(value):
         return lambda instance: _part(value(instance), k, size, name)
     count = _count(value)
     if count is None:
@@ -98,6 +98,10 @@ def _part(value: Any, k: int, size: int, name: str) -> Any:
         )
     part = value[k]
     return part.item() if isinstance(part, np.generic) else part
+
+
+def _is_function(value: Any) -> bool:
+    return callable(value) and not hasattr(value, "dimensionality") and not isinstance(value, SX)
 
 
 def _count(value: Any) -> int | None:

@@ -65,7 +65,7 @@ def unify_media(
         for component, name, record in group:
             if record is not master:
                 same.update(parameters_like(record, master))
-                if type(record) is type(master):
+                if _alike(record, master):
                     record.__dict__.update({n: master.__dict__[n] for n in master._declarations.structural})
                 else:
                     component.__dict__[name] = master
@@ -100,18 +100,35 @@ def _equal(a: Record, b: Record) -> bool:
     if type(a) is not type(b):
         return False
     mine, its = a._modifications, b._modifications
-    return mine.keys() == its.keys() and all(mine[k] is its[k] or _same_number(mine[k], its[k]) for k in mine)
+    return mine.keys() == its.keys() and all(mine[k] is its[k] or _same(mine[k], its[k]) for k in mine)
 
 
-def _same_number(x: object, y: object) -> bool:
+def _same(x: object, y: object) -> bool:
+    if isinstance(x, Record) and isinstance(y, Record):
+        return _equal(x, y)
     return isinstance(x, int | float | str) and isinstance(y, int | float | str) and x == y
 
 
+def _nested(record: Record, master: Record) -> list[tuple[Record, Record]]:
+    """Return the records that both hold under one name."""
+    pairs = [(own, master.__dict__.get(name)) for name, own in record.__dict__.items()]
+    return [(own, its) for own, its in pairs if isinstance(own, Record) and isinstance(its, Record)]
+
+
+def _alike(record: Record, master: Record) -> bool:
+    """Tell whether equations read both in the same way: they are of one class, and so is what they hold."""
+    return type(record) is type(master) and all(_alike(*pair) for pair in _nested(record, master))
+
+
 def parameters_like(record: Record, master: Record) -> dict[int, int]:
+    """Return parameter number of ``record``, and of the records that it holds -> that of ``master``."""
     mine, its = record._binding, master._binding
     assert mine is not None and its is not None
-    return {
+    same = {
         mine.first["parameter"] + slot: its.first["parameter"] + master._declarations.slot[name]
         for name, slot in record._declarations.slot.items()
         if name in master._declarations.slot
     }
+    for pair in _nested(record, master):
+        same |= parameters_like(*pair)
+    return same
