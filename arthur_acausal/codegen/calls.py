@@ -154,28 +154,45 @@ class Calls:
             self.seconds += perf_counter() - begun
 
 
-def completed(
-    calls: Sequence[ExternalCall],
-    arguments: Sequence[FloatArray],
-    sizes: tuple[int, int],
-    need: Need | None,
-) -> list[FloatArray]:
-    """Return the arguments of the kernels, each with a column a time, with those that external functions give.
+class Completion:
+    """What external functions give at many points, by one copy of each.
 
-    ``sizes``: of e and d; ``need``: None for nothing. Derivatives are exact; what is not needed is zero.
+    ``sizes``: of e and d; ``exact``: whether derivatives are to be exact, or as Newton's method takes them, but none of
+    another point, which may be far.
     """
-    if not calls:
-        return list(arguments)
-    columns = [np.asarray(a, dtype=float) for a in arguments]
-    columns = [a.reshape(-1, 1) if a.ndim < 2 else a for a in columns]
-    count = columns[1].shape[1]
-    e, d = (np.zeros((size, count)) for size in sizes)
-    if need is not None:
-        point = [np.zeros(a.shape[0]) for a in columns] + [np.zeros(size) for size in sizes]
-        prepare = Calls(calls, {}, point, *point[-2:]).preparation(need)
-        for k in range(count):
-            for array, column in zip(point, columns, strict=False):
-                array[:] = column[:, k]
-            prepare()
-            e[:, k], d[:, k] = point[-2:]
-    return [*arguments, e, d]
+
+    def __init__(self, calls: Sequence[ExternalCall], sizes: tuple[int, int], *, exact: bool = True) -> None:
+        self._list, self._sizes, self._exact = calls, sizes, exact
+        self._calls: Calls | None = None
+        self._point: list[FloatArray] = []
+
+    def __call__(self, arguments: Sequence[FloatArray], need: Need | None) -> list[FloatArray]:
+        """Return the arguments of the kernels, each with a column a time, with those that external functions give.
+
+        ``need``: None for nothing. What is not needed is zero.
+        """
+        if not self._list:
+            return list(arguments)
+        columns = [np.asarray(a, dtype=float) for a in arguments]
+        columns = [a.reshape(-1, 1) if a.ndim < 2 else a for a in columns]
+        count = columns[1].shape[1]
+        e, d = (np.zeros((size, count)) for size in self._sizes)
+        if need is not None:
+            calls = self._at(columns)
+            prepare = calls.preparation(need)
+            for k in range(count):
+                for array, column in zip(self._point, columns, strict=False):
+                    array[:] = column[:, k]
+                if need.derivatives and not self._exact:
+                    calls.restart()
+                prepare()
+                e[:, k], d[:, k] = self._point[-2:]
+        return [*arguments, e, d]
+
+    def _at(self, columns: Sequence[FloatArray]) -> Calls:
+        if self._calls is None:
+            sizes = [*(a.shape[0] for a in columns), *self._sizes]
+            self._point = [np.zeros(size) for size in sizes]
+            self._calls = Calls(self._list, {}, self._point, *self._point[-2:])
+            self._calls.exact = self._exact
+        return self._calls

@@ -9,7 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from arthur_acausal.codegen.calls import Calls, ExternalCall, Need, completed
+from arthur_acausal.codegen.calls import Calls, Completion, ExternalCall, Need
 from arthur_acausal.codegen.kernel import Kernel
 from arthur_acausal.codegen.origins import Origins
 from arthur_acausal.codegen.parameters import ParameterTable
@@ -159,7 +159,11 @@ class CompiledDAE:
         ``name``: of the function that they are for; default: of any, with all derivatives.
         """
         need = self.needs.get(name) if name else Need.all(self.calls, derivatives=True)
-        return completed(self.calls, arguments, self.recovery.external_sizes, need)
+        return self.completion()(arguments, need)
+
+    def completion(self, *, exact: bool = True) -> Completion:
+        """Return what completes the functions' arguments at many points in several goes."""
+        return Completion(self.calls, self.recovery.external_sizes, exact=exact)
 
     def evaluator(self) -> Evaluator:
         """Return the kernels with buffers of their own; one for each thread."""

@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from arthur_acausal.codegen.calls import ExternalCall, Need, completed
+from arthur_acausal.codegen.calls import Completion, ExternalCall, Need
 from arthur_acausal.errors import ResultError, nearest
 
 FloatArray = NDArray[np.float64]
@@ -124,7 +124,7 @@ class Recovery:
             same = np.repeat(p.reshape(-1, 1), count, axis=1)
             arguments = (t[part].reshape(1, -1), y[part].T, yp[part].T, same, u[part].T, z[part].T, m[part].T)
             need = Need.all(self.calls) if self.external[wanted].any() else None
-            complete = completed(self.calls, arguments, self.external_sizes, need)
+            complete = Completion(self.calls, self.external_sizes)(arguments, need)
             values = np.asarray(self.observed.map(count)(*complete), dtype=float)
             out[part] = values[wanted].T
         return out

@@ -7,18 +7,21 @@ balances hold to rounding.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from arthur_acausal.codegen.calls import Completion
 from arthur_acausal.codegen.compiled import CompiledDAE
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
 
 DENSE_UP_TO = 200  # unknowns: batches of dense systems; above, one sparse system after the other
 BATCH = 4_000_000  # matrix entries at once
-ITERATIONS = 4
+ITERATIONS = 8
+GAIN = 0.5  # what is left of the residual, at most, where another iteration is worth while
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +36,7 @@ class Rows:
     z: FloatArray
     m: FloatArray
 
-    def part(self, rows: slice) -> Rows:
+    def part(self, rows: slice | IntArray) -> Rows:
         """Return some of the times."""
         return Rows(
             self.t[rows], self.y[rows], self.yp[rows], self.p, self.u[rows], self.z[rows], self.m[rows]
@@ -54,43 +57,54 @@ def refine(dae: CompiledDAE, rows: Rows) -> tuple[FloatArray, FloatArray]:
     y, yp = rows.y.copy(), rows.yp.copy()
     if not dae.n or not len(rows.t):
         return y, yp
+    complete = dae.completion(exact=False)
     size = max(1, BATCH // dae.n**2) if dae.n <= DENSE_UP_TO else 1
     for first in range(0, len(rows.t), size):
         part = slice(first, first + size)
-        y[part], yp[part] = _newton(dae, rows.part(part))
+        y[part], yp[part] = _newton(dae, rows.part(part), complete)
     return y, yp
 
 
-def _newton(dae: CompiledDAE, rows: Rows) -> tuple[FloatArray, FloatArray]:
-    differential = dae.differential
-    count = len(rows.t)
-    residual = dae.functions["residual"].map(count)
+def _newton(dae: CompiledDAE, rows: Rows, complete: Completion) -> tuple[FloatArray, FloatArray]:
+    """Newton's method, with the derivatives of external functions, which cost most, kept from its first iteration."""
+    differential, needs = dae.differential, dae.needs
     y, yp = rows.y.copy(), rows.yp.copy()
-    now = Rows(rows.t, y, yp, rows.p, rows.u, rows.z, rows.m)
-    value = (
-        np.asarray(residual(*dae.completed(now.arguments(), "residual")), dtype=float).reshape(dae.n, count).T
-    )
+    going = np.arange(len(rows.t))  # the times at which there is something to gain
+    arguments = complete(rows.arguments(), needs.get("residual"))
+    external = arguments[len(rows.arguments()) :]  # e and d, or none
+    if external and "solving" in needs:
+        external[1] = complete(rows.arguments(), needs["solving"])[-1]
+    value = _residual(dae, arguments)
     for _ in range(ITERATIONS):
-        step = _steps(dae, now, value)
-        trial_y = np.where(differential, y, y - step)
-        trial_yp = np.where(differential, yp - step, yp)
-        trial = Rows(rows.t, trial_y, trial_yp, rows.p, rows.u, rows.z, rows.m)
-        new = (
-            np.asarray(residual(*dae.completed(trial.arguments(), "residual")), dtype=float)
-            .reshape(dae.n, count)
-            .T
-        )
-        better = np.linalg.norm(new, axis=1) < np.linalg.norm(value, axis=1)  # False where not finite
-        y[better], yp[better], value[better] = trial_y[better], trial_yp[better], new[better]
-        if not better.any():
+        now = replace(rows, y=y, yp=yp).part(going)
+        step = _steps(dae, now, [x[:, going] for x in external], value[going])
+        trial_y = np.where(differential, now.y, now.y - step)
+        trial_yp = np.where(differential, now.yp - step, now.yp)
+        arguments = complete(replace(now, y=trial_y, yp=trial_yp).arguments(), needs.get("residual"))
+        new = _residual(dae, arguments)
+        before, after = (np.linalg.norm(r, axis=1) for r in (value[going], new))
+        better = after < before  # False where not finite
+        taken = going[better]
+        y[taken], yp[taken], value[taken] = trial_y[better], trial_yp[better], new[better]
+        if external:
+            external[0][:, taken] = arguments[-2][:, better]
+        going = going[(after < GAIN * before) & (after > 0.0)]
+        if not going.size:
             break
     return y, yp
 
 
-def _steps(dae: CompiledDAE, rows: Rows, value: FloatArray) -> FloatArray:
+def _residual(dae: CompiledDAE, arguments: list[FloatArray]) -> FloatArray:
+    """Return F (nt, n)."""
+    count = arguments[0].shape[1]
+    values = dae.functions["residual"].map(count)(*arguments)
+    return np.asarray(values, dtype=float).reshape(dae.n, count).T
+
+
+def _steps(dae: CompiledDAE, rows: Rows, external: list[FloatArray], value: FloatArray) -> FloatArray:
     """Return Newton's steps (nt, n) for the unknowns: y' of states, y of algebraic variables."""
     count, n = len(rows.t), dae.n
-    arguments = dae.completed(rows.arguments(), "solving")
+    arguments = [*rows.arguments(), *external]
     dy, dyp = (_entries(dae, name, arguments, count) for name in ("jacobian_y", "jacobian_yp"))
     column = np.repeat(np.arange(n), np.diff(dae.sparsity.colind))
     entries = np.where(dae.differential[column], dyp, dy)

@@ -25,11 +25,11 @@ class ExternalFunction(Protocol):
 
     What an object may have besides:
 
-    - ``exact_derivative(inputs, jacobian)``: like ``derivative``, but never stale or approximate: for initialisation,
-      outputs and linearisation; without it ``derivative`` serves.
+    - ``exact_derivative(inputs, jacobian)``: like ``derivative``, but never stale or approximate: for initialisation
+      and linearisation; without it ``derivative`` serves.
     - ``sparsity``: array of truth values (n_outputs, n_inputs), which input each output depends on; default: all.
     - ``units``: (units of the inputs, units of the outputs), checked against the equations' dimensions.
-    - ``restart()``: an event has been handled; a stale derivative may be renewed.
+    - ``restart()``: the next point is another one, after an event or in the output; a stale derivative is renewed.
     - ``failure``: text, why the latest evaluation had no value; messages tell it.
     - ``describe()`` and a class method ``restore(data)``, JSON data: the translated model can go to other processes.
     """

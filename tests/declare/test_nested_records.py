@@ -66,7 +66,7 @@ class Line(Component):
     """Two hoops: one of the whole record, one of its inner one in another pipe."""
 
     pipe: Pipe = Pipe(wall=Wall(t=3e-3))
-    first: Hoop = Hoop(pipe=lambda self: self.pipe)
+    first: Hoop = Hoop(pipe=lambda self: self.pipe)  # type: ignore[arg-type]
 
     def build(self) -> None:
         self.second = Hoop(pipe=self.pipe)
