@@ -22,6 +22,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
@@ -34,8 +35,11 @@ from benchmarks.mutate import Mutation, mutations
 ROOT = Path(__file__).resolve().parents[1]
 MUTATED = ("arthur_acausal/graph", "arthur_acausal/transform")
 COPIED = ("arthur_acausal", "benchmarks", "components", "models", "tests", "pyproject.toml")
-OF_GRAPH = ("tests/graph",)  # these import nothing of transform, so that a mutant there cannot fail them
-OF_BOTH = (
+Stage = tuple[str, ...]
+OF_GRAPH: Stage = (
+    "tests/graph",
+)  # these import nothing of transform, so that a mutant there cannot fail them
+OF_BOTH: tuple[Stage, ...] = (
     ("tests/transform",),
     ("tests/faults", "tests/metamorphic", "tests/codegen/test_recovery.py", "tests/flatten"),
 )
@@ -82,17 +86,23 @@ class Copy:
         for compiled in (path.parent / "__pycache__").glob(f"{path.stem}.*.pyc"):
             compiled.unlink()
 
-    def outcome(self, file: str, limit: int) -> str:
-        """Run the tests that a mutant of the file can fail, up to the first one; ``limit``: CPU seconds a stage."""
+    def outcome(self, file: str, limits: Mapping[Stage, int]) -> str:
+        """Run the tests that a mutant of the file can fail, up to the first one; ``limits``: CPU seconds of a stage."""
+        for tests, limit in limits.items():
+            if tests == OF_GRAPH and not file.startswith(MUTATED[0]):
+                continue
+            code = self.run(tests, limit)
+            if code:
+                return "timeout" if -code in (signal.SIGXCPU, signal.SIGKILL) else "killed"
+        return "survived"
+
+    def run(self, tests: Stage, limit: int) -> int:
+        """Run tests up to the first failure and return pytest's code, or minus the signal that ended it."""
         environment = {**os.environ, "PYTHONPATH": str(self.folder)}
         environment["ARTHUR_CACHE_DIR"] = str(self.folder / "cache")
-        stages = (OF_GRAPH, *OF_BOTH) if file.startswith(MUTATED[0]) else OF_BOTH
-        for tests in stages:
-            command = [sys.executable, "-c", PYTEST, str(limit), *tests]
-            done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, check=False)
-            if done.returncode:
-                return "timeout" if -done.returncode in (signal.SIGXCPU, signal.SIGKILL) else "killed"
-        return "survived"
+        command = [sys.executable, "-c", PYTEST, str(limit), *tests]
+        done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, check=False)
+        return done.returncode
 
 
 def run(seed: int, count: int, files: list[str], jobs: int, progress: bool) -> list[Outcome]:
@@ -103,14 +113,14 @@ def run(seed: int, count: int, files: list[str], jobs: int, progress: bool) -> l
         candidates = [(file, mutation) for file in files for mutation in mutations(copies[0].read(file))]
         chosen = random.Random(seed).sample(candidates, count)
         pool = stack.enter_context(ThreadPoolExecutor(jobs))
-        limit = math.ceil(PATIENCE * _cpu_time(copies[0]))
+        limits = {tests: math.ceil(PATIENCE * _cpu_time(copies[0], tests)) for tests in (OF_GRAPH, *OF_BOTH)}
         idle: Queue[Copy] = Queue()
         for copy in copies:
             idle.put(copy)
 
         def judge(number: int) -> Outcome:
             copy = idle.get()
-            found = _judge(copy, *chosen[number], limit)
+            found = _judge(copy, *chosen[number], limits)
             idle.put(copy)
             if progress:
                 print(f"{number + 1:3} {found.outcome:9} {found.file}:{found.line} {found.kind}", flush=True)
@@ -119,20 +129,20 @@ def run(seed: int, count: int, files: list[str], jobs: int, progress: bool) -> l
         return list(pool.map(judge, range(count)))
 
 
-def _cpu_time(copy: Copy) -> float:
-    """Return the CPU seconds that the tests take without a mutant."""
+def _cpu_time(copy: Copy, tests: Stage) -> float:
+    """Return the CPU seconds that tests take without a mutant."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if copy.outcome(MUTATED[0], resource.RLIM_INFINITY) != "survived":
-        raise SystemExit("the tests fail without any mutant")
+    if copy.run(tests, resource.RLIM_INFINITY):
+        raise SystemExit(f"without any mutant these fail: {', '.join(tests)}")
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def _judge(copy: Copy, file: str, mutation: Mutation, limit: int) -> Outcome:
+def _judge(copy: Copy, file: str, mutation: Mutation, limits: Mapping[Stage, int]) -> Outcome:
     original = copy.read(file)
     changed = mutation.apply(original)
     copy.write(file, changed)
-    outcome = copy.outcome(file, limit)
+    outcome = copy.outcome(file, limits)
     copy.write(file, original)
     lines = difflib.unified_diff(original.splitlines(), changed.splitlines(), file, file, n=1, lineterm="")
     return Outcome(file, mutation.line, mutation.kind, outcome, "\n".join(lines))
