@@ -2,79 +2,8 @@
 
 from __future__ import annotations
 
-from arthur_acausal import (
-    Component,
-    Connector,
-    Equations,
-    Real,
-    connect,
-    der,
-    flow,
-    parameter,
-    potential,
-    start,
-    variable,
-)
-
-
-class Pin(Connector):
-    """An electrical pin: potential ``v`` [V], current ``i`` [A] into the component."""
-
-    v: Real = potential("V")
-    i: Real = flow("A", nominal=1e-3)
-
-
-class TwoPin(Component):
-    """Two pins: ``v`` [V] from pin_n to pin_p, ``i`` [A] through the component from pin_p to pin_n."""
-
-    pin_p = Pin()
-    pin_n = Pin()
-    v: Real = variable("V")
-    i: Real = variable("A", nominal=1e-3)
-
-    def equations(self) -> Equations:
-        yield self.v == self.pin_p.v - self.pin_n.v
-        yield self.i == self.pin_p.i
-        yield self.pin_p.i + self.pin_n.i == 0
-
-
-class Resistor(TwoPin):
-    """Ohm's law: v = R i."""
-
-    R: Real = parameter("ohm", min=0.0)
-
-    def equations(self) -> Equations:
-        yield from super().equations()
-        yield "Ohm's law", self.v == self.R * self.i
-
-
-class Capacitor(TwoPin):
-    """C der(v) = i. State: ``v`` [V]."""
-
-    C: Real = parameter("F", min=0.0)
-
-    def equations(self) -> Equations:
-        yield from super().equations()
-        yield self.C * der(self.v) == self.i
-
-
-class VoltageSource(TwoPin):
-    """v = V, constant."""
-
-    V: Real = parameter("V")
-
-    def equations(self) -> Equations:
-        yield from super().equations()
-        yield self.v == self.V
-
-
-class Ground(Component):
-    """The potential 0."""
-
-    pin = Pin()
-
-    def equations(self) -> Equations:
-        yield self.pin.v == 0
+from arthur_acausal import Component, Equations, Real, connect, parameter, start
+from arthur_acausal.components.electrical import Capacitor, ConstantVoltage, Ground, Resistor
 
 
 class RCLadder(Component):
@@ -84,7 +13,7 @@ class RCLadder(Component):
     R: Real = parameter("ohm", default=1e3, min=0.0)
     C: Real = parameter("F", default=1e-6, min=0.0)
     V: Real = parameter("V", default=1.0)
-    source: VoltageSource = VoltageSource(V=lambda self: self.V)
+    source: ConstantVoltage = ConstantVoltage(V=lambda self: self.V)
     ground = Ground()
 
     def build(self) -> None:
