@@ -55,6 +55,22 @@ def test_the_choice_of_a_literal_block() -> None:
     assert result.residual_equations == [2]
 
 
+def test_of_equals_the_one_that_makes_most_equations_explicit_is_torn() -> None:
+    # each variable is in two equations; with 2 known two of them are explicit, with 0 or 1 known one
+    result = tear(range(3), range(3), [[1, 2], [0, 2], [0, 1]], [{1, 2}, {0}, {1}])
+    assert result.torn_variables == [2]
+    assert result.sequence == [(0, 1), (1, 0)]
+    assert result.residual_equations == [2]
+
+
+def test_what_becomes_more_useful_on_the_way_is_torn_sooner() -> None:
+    # 2 is in all three; then 0 makes the first equation explicit, and 1 does so, too: the lower number
+    result = tear(range(3), range(3), [[0, 1, 2], [1, 2], [0, 2]], [{0, 1, 2}, {2}, set()])
+    assert result.torn_variables == [2, 0]
+    assert result.sequence == [(0, 1)]
+    assert result.residual_equations == [1, 2]
+
+
 def test_known_variables_and_repeated_edges_do_not_count() -> None:
     result = tear([0], [1], [[0, 1, 1, 2]], [[0, 1, 2]])
     assert result.sequence == [(0, 1)]

@@ -23,7 +23,8 @@ from arthur_acausal import (
     translate,
     variable,
 )
-from arthur_acausal.transform.tear import _ordered
+from arthur_acausal.graph import TearingResult
+from arthur_acausal.transform.tear import _ordered, _shortened
 from tests.circuit import Capacitor, Current, Ground, Resistor
 
 
@@ -258,6 +259,14 @@ def test_a_chain_in_a_torn_block_has_eight_links_at_most(n: int, torn: int) -> N
     solution = translation.simulate(1.0)
     for k in range(n):
         assert solution.final(f"stages[{k}].y") == pytest.approx(0.5**k / (1 - 0.5**n), rel=1e-9)
+
+
+def test_a_chain_that_begins_with_what_is_known_has_eight_links_behind_its_first() -> None:
+    chain = TearingResult([(k, k) for k in range(11)], [], [])
+    edges = [[0], *([k - 1, k] for k in range(1, 11))]
+    result = _shortened(chain, edges)
+    assert (result.torn_variables, result.residual_equations) == ([9], [9])
+    assert result.sequence == [(k, k) for k in range(11) if k != 9]
 
 
 class Loop(Component):

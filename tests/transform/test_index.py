@@ -24,6 +24,7 @@ from arthur_acausal import (
 from arthur_acausal.components.rotational import Inertia, TorqueSource
 from arthur_acausal.declare.quantity import StateSelect
 from arthur_acausal.flatten.flatten import flatten
+from arthur_acausal.transform.index import listed
 from arthur_acausal.transform.structured import transform
 from tests.circuit import Capacitor, Current, Ground, Inductor, Resistor, Voltage
 
@@ -335,4 +336,10 @@ def test_the_index_counts_differentiations() -> None:
     assert translate(Decay()).report.index == 0
     assert translate(GearedBySecond()).report.index == 3, "the gear twice"
     report = translate(Pendulum()).report
+    assert "2 equations were differentiated (index 3)" in report.messages
     assert sorted(report.dummies)[0].startswith("der(v") and len(report.dummies) == 2
+
+
+def test_a_long_list_says_how_many_it_leaves_out() -> None:
+    assert listed(["a"] * 12, "; ") == "; ".join(["a"] * 12)
+    assert listed(["a"] * 13, "; ") == "; ".join(["a"] * 12) + " and 1 more"

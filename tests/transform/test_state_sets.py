@@ -22,6 +22,8 @@ def test_pivots_of_literal_matrices() -> None:
     order, diagonal = pivots(np.array([[1.0, 2.0, 1.0], [2.0, 4.0, 2.0]]))
     assert order == [1, 0, 2]
     np.testing.assert_allclose(diagonal, [np.sqrt(20.0), 0.0], atol=1e-15)
+    order, diagonal = pivots(np.zeros((0, 3)))
+    assert (order, diagonal.tolist()) == ([0, 1, 2], [])
     order, diagonal = pivots(np.zeros((2, 3)))
     assert (order, diagonal.tolist()) == ([0, 1, 2], [0.0, 0.0])
 
@@ -102,6 +104,40 @@ def test_sets_of_the_pendulum() -> None:
     numbers = [float(dae.evaluator(row, look, entry)) for row, entry in entries]
     assert numbers == [2.4, -3.2], "d(x^2 + y^2)'' / dx'', dy''"
     assert {dae.nodes.name(n) for n in sets.choose(np.array(numbers))} == {"der(vy)", "vy"}
+
+
+class Weighed(Component):
+    """The pendulum, its speeds declared first, so that a derivative has the lowest number."""
+
+    g: Real = parameter("m/s^2", default=9.81)
+    L: Real = parameter("m", default=1.0)
+    v: Real = variable("m/s", nominal=10.0, state_select="prefer")
+    w: Real = variable("m/s", state_select="never")
+    x: Real = variable("m")
+    y: Real = variable("m")
+    F: Real = variable("1/s^2")
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.v
+        yield der(self.y) == self.w
+        yield der(self.v) == -self.F * self.x
+        yield der(self.w) == -self.F * self.y - self.g
+        yield "rod", self.x**2 + self.y**2 == self.L**2
+
+
+class WeighedOtherwise(Weighed):
+    v: Real = variable("m/s", nominal=10.0, state_select="always")
+    w: Real = variable("m/s", state_select="avoid")
+
+
+def test_nominal_and_state_select_weigh_the_columns() -> None:
+    for model, weights in ((Weighed(), [0.1, 1e6]), (WeighedOtherwise(), [1e-5, 1e2])):
+        dae = transform(flatten(model))
+        sets = dae.reduced.sets
+        assert sets is not None
+        assert names(dae, sets.chains) == [["der(v)", "v"], ["der(w)", "w"]]
+        assert sets.weight.tolist() == pytest.approx(weights)
+        assert sets.levels == [2]
 
 
 class Mixture(Component):
