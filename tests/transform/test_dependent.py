@@ -154,3 +154,27 @@ def test_a_constraint_with_a_variable_that_is_zero_is_differentiated_as_without_
     solution = translate(Shifted()).simulate(1.0, tolerance=1e-9)
     np.testing.assert_allclose(solution["b"], np.exp(-solution.t), rtol=1e-6)
     np.testing.assert_allclose(solution["q"], 0.0, atol=1e-9)
+
+
+def test_derivatives_that_the_combination_leaves_in_no_equation_are_gone() -> None:
+    class Held(Component):
+        """x + 2 y = 0, so that the sum of their rates is zero and x = u."""
+
+        T: Real = parameter("s", default=1.0)
+        u: Real = parameter("1", default=3.0)
+        x: Real = variable("1")
+        y: Real = variable("1")
+        z: Real = variable("1", start=0.0, fixed=True)
+
+        def equations(self) -> Equations:
+            yield "rates", self.T * (der(self.x) + 2 * der(self.y)) == self.u - self.x
+            yield "sum", self.x + 2 * self.y == 0
+            yield "follower", self.T * der(self.z) == self.y
+
+    translation = translate(Held())
+    assert translation.report.states == ["z"]
+    assert translation.report.index == 1
+    solution = translation.simulate(2.0)
+    assert (solution.final("x"), solution.final("y")) == pytest.approx((3.0, -1.5))
+    assert solution.final("z") == pytest.approx(-3.0)
+    assert not any(path.startswith("der(x") for path in solution.variables)
