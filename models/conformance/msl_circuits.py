@@ -31,6 +31,7 @@ from arthur_acausal.components.electrical import (
     HeatingResistor,
     IdealClosingSwitch,
     IdealDiode,
+    IdealOpAmpLimited,
     IdealTransformer,
     IdealTriac,
     Inductor,
@@ -40,6 +41,7 @@ from arthur_acausal.components.electrical import (
     SignalVoltage,
     SineVoltage,
     Transformer,
+    TrapezoidVoltage,
     TwoPin,
     VariableResistor,
     VoltageSensor,
@@ -307,6 +309,33 @@ class IdealTriacCircuit(Component):
         yield connect(self.booleanPulse.y, self.idealTriac.fire)
 
 
+class InvertingAmp(Component):
+    """An operational amplifier with limits amplifies a trapezoid by -2 (InvertingAmp)."""
+
+    opAmp = IdealOpAmpLimited()
+    vIn = TrapezoidVoltage(
+        V=10.0, rising=0.02, width=0.03, falling=0.02, period=0.1, offset=-5.0, start_time=-0.035
+    )
+    vOut = VoltageSensor()
+    r1 = Resistor(R=1000.0)
+    r2 = Resistor(R=2000.0)
+    vSourcePos = ConstantVoltage(V=15.0)
+    vSourceNeg = ConstantVoltage(V=-15.0)
+    ground = Ground()
+
+    def equations(self) -> Equations:
+        for pin in (self.vIn.pin_n, self.vOut.pin_n, self.vSourcePos.pin_n, self.vSourceNeg.pin_n):
+            yield connect(pin, self.ground.pin)
+        yield connect(self.opAmp.in_p, self.ground.pin)
+        yield connect(self.vIn.pin_p, self.r1.pin_p)
+        yield connect(self.r1.pin_n, self.r2.pin_n)
+        yield connect(self.r2.pin_n, self.opAmp.in_n)
+        yield connect(self.r2.pin_p, self.opAmp.out)
+        yield connect(self.opAmp.out, self.vOut.pin_p)
+        yield connect(self.vSourcePos.pin_p, self.opAmp.v_max)
+        yield connect(self.vSourceNeg.pin_p, self.opAmp.v_min)
+
+
 class SeriesResonance(Component):
     """Two coils, capacitors and resistors in series, swept through resonance (SeriesResonance)."""
 
@@ -383,11 +412,12 @@ def _options(intervals: int) -> SolverOptions:
 
 
 _E = "msl_Electrical_Analog_"
+_CHUA = {"v1": "C1.v", "v2": "C2.v", "inductor.i": "L.i"}
 _PHASES = {"sineVoltage.phi": "sine.phi", "cosineVoltage.phi": "cosine.phi"}
 _CURRENT_PHASES = {"sineCurrent.phi": "sine.phi", "cosineCurrent.phi": "cosine.phi"}
 
 _CASES = (
-    Case(f"{_E}ChuaCircuit", ChuaCircuit, {}, 5e4, SolverOptions(rtol=1e-10, intervals=50000)),
+    Case(f"{_E}ChuaCircuit", ChuaCircuit, _CHUA, 5e4, SolverOptions(rtol=1e-10, intervals=50000)),
     Case(f"{_E}Rectifier", Rectifier, {}, 0.1, _options(10000)),
     Case(f"{_E}CompareTransformers", CompareTransformers, {}, 50.0, _options(50000)),
     Case(f"{_E}Resistor", WarmResistor, {}, 5.0),
@@ -397,6 +427,7 @@ _CASES = (
     Case(f"{_E}ControlledSwitchWithArc", ControlledSwitchWithArc, {}, 6.0, _options(24000)),
     Case(f"{_E}OvervoltageProtection", OvervoltageProtection, {}, 0.4, _options(5000)),
     Case(f"{_E}IdealTriacCircuit", IdealTriacCircuit, {}, 2.0, _options(5000)),
+    Case(f"{_E}InvertingAmp", InvertingAmp, {}, 1.0, _options(2000)),
     Case(f"{_E}SeriesResonance", SeriesResonance, _PHASES, 1.0, _options(10000)),
     Case(f"{_E}ParallelResonance", ParallelResonance, _CURRENT_PHASES, 1.0, _options(10000)),
 )

@@ -384,6 +384,7 @@ _CASES = (
     Case(f"{_E}NandGate", NandGate, {}, 1e-7, _options(5000)),
     Case(f"{_E}HeatingMOSInverter", HeatingMOSInverter, {}, 5.0, _options(5000)),
     Case(f"{_E}HeatingNPN_NORGate", HeatingNPNGate, {}, 200.0, _options(5000)),
+    Case(f"{_E}HeatingNPN_OrGate", HeatingNPNGate, {}, 200.0, _options(5000)),
     Case(f"{_E}HeatingPNP_NORGate", HeatingPNPGate, {}, 200.0, _options(5000)),
     Case(f"{_E}CharacteristicThyristors", CharacteristicThyristors, {}, 6.0, _options(5000)),
     Case(f"{_E}CauerLowPassOPV", CauerLowPassOPV, {}, 60.0, _options(5000)),

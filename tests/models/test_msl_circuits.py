@@ -45,7 +45,7 @@ def transformer(t: float, x: Floats) -> Floats:
     leak = 0.05 / (20 * np.pi)
     L = np.array([[leak + 200 * leak, 100 * leak], [100 * leak, leak / 4 + 50 * leak]])
     v = np.array([0.1 + 0.1 * np.sin(20 * np.pi * t + np.pi / 2), 0.0])
-    return np.asarray(np.linalg.solve(L, v - np.array([0.01, 0.2525]) * x))
+    return np.asarray(np.linalg.solve(L, v - np.array([0.01, 0.2525]) * x), dtype=np.float64)
 
 
 REFERENCES: dict[str, tuple[Callable[[float, Floats], object], list[float], list[str], float]] = {
@@ -130,6 +130,16 @@ def test_a_triac_conducts_both_ways_from_firing_to_the_end_of_the_current() -> N
         on = (solution[f"idealTriac.{thyristor}.blocked"] < 0.5) & (np.abs(v) > 1.0)
         assert on.sum() > 50
         assert load[on] == pytest.approx(v[on] - sign * 0.8, abs=1e-4)
+
+
+def test_an_inverting_amplifier_amplifies_by_its_resistors() -> None:
+    """From the middle of a plateau on: 5 V, down within 20 ms, -5 V for 30 ms, up."""
+    solution = run("InvertingAmp", 0.2)
+    t = solution.t
+    corners = [0.0, 0.015, 0.035, 0.065, 0.085, 0.115, 0.135, 0.165, 0.185, 0.2]
+    v = np.interp(t, corners, [5.0, 5.0, -5.0, -5.0, 5.0, 5.0, -5.0, -5.0, 5.0, 5.0])
+    assert solution["vIn.v"] == pytest.approx(v, abs=1e-9)
+    assert solution["vOut.v"] == pytest.approx(-2 * v, abs=1e-9)
 
 
 def test_a_rectifier_keeps_its_energy_balance() -> None:
