@@ -10,17 +10,16 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from arthur_acausal import Solution, SolverOptions, simulate
-from arthur_acausal.models.conformance import msl_circuits as circuits
+from arthur_acausal.models.conformance import msl_circuits, msl_switching
 from arthur_acausal.models.conformance.case import Case
 
 Floats = NDArray[np.float64]
+CASES = msl_circuits.CASES | msl_switching.CASES
 PRECISE = SolverOptions(rtol=1e-8, intervals=1000)
 
 
 def run(name: str, stop_time: float) -> Solution:
-    return simulate(
-        circuits.CASES[f"msl_Electrical_Analog_{name}"].model(), stop_time=stop_time, options=PRECISE
-    )
+    return simulate(CASES[f"msl_Electrical_Analog_{name}"].model(), stop_time=stop_time, options=PRECISE)
 
 
 def chua(t: float, x: Floats) -> list[float]:
@@ -156,7 +155,7 @@ def test_a_rectifier_keeps_its_energy_balance() -> None:
 
 
 def test_a_signal_of_modelica_finds_its_variable() -> None:
-    case = Case("any", circuits.ChuaCircuit, {"phi": "sine.phi"}, 1.0)
+    case = Case("any", msl_circuits.ChuaCircuit, {"phi": "sine.phi"}, 1.0)
     known = {"sine.phi", "a.pin_p.v", "b.x_1", "c[0].P_loss", "d.heat_port.T"}
     names = {
         "phi": "sine.phi",
