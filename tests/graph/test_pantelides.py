@@ -212,6 +212,12 @@ def test_numbers_of_variables_mean_nothing() -> None:
     assert select_states(result.edges, result.derivative, result.equation_derivative, [2, 2]).dummies == [0]
 
 
+def test_a_highest_derivative_may_have_the_lowest_number() -> None:
+    # x'' = 0, x' = 1, x = 2; x = u differentiated twice; x, whose derivative is gladly a dummy, is no candidate early
+    selection = select_states([[2], [1], [1, 0]], [-1, 0, 1], [1, 2, -1], [2, 3, 0])
+    assert (selection.dummies, selection.states) == ([0, 1], [])
+
+
 def test_a_constraint_of_index_three_by_hand() -> None:
     # x' = v, v' = F, x = 0 with x, x', v, v', F = 0 .. 4: x = 0 and x' = v are differentiated, twice and once.
     result = pantelides([[1, 2], [3, 4], [0]], [1, -1, 3, -1, -1])
