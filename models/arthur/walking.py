@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from arthur_acausal.models.arthur.locomotion.actuation import actuator_forces
 from arthur_acausal.models.arthur.locomotion.controller import Configuration, Controller
+from arthur_acausal.models.arthur.locomotion.portable import as_data, of_data
 from arthur_acausal.models.arthur.locomotion.sensors import FIELDS, N_INPUTS
 
 FloatArray = NDArray[np.float64]
@@ -27,6 +31,15 @@ class Walking:
     def fresh(self) -> Walking:
         """Return a controller of the same configuration in its initial state."""
         return Walking(self._controller.configuration)
+
+    def describe(self) -> dict[str, Any]:
+        """Return what makes this controller in another process, in terms of JSON."""
+        return as_data(self._controller.configuration)
+
+    @classmethod
+    def restore(cls, data: Mapping[str, Any]) -> Walking:
+        """Return the controller that ``describe`` told of, in its initial state."""
+        return cls(of_data(data))
 
     def __call__(self, t: float, sensors: FloatArray) -> FloatArray:
         """Return the forces of the cylinders [N], and the flow planned over the horizon [m^3/s]."""
