@@ -246,3 +246,42 @@ def plot(
     target = output or file.with_suffix(".png")
     load(file).plot(variables, target)
     typer.echo(f"wrote {target}")
+
+
+@app.command()
+@reported
+def render(
+    file: Annotated[Path, typer.Argument(metavar="FILE.nc", help="A result of `arthur simulate -o`.")],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="FILE", help="A film (mp4, gif) or a film strip (png).")
+    ],
+    shown: Annotated[
+        list[str] | None,
+        typer.Option("--show", metavar="VAR", help="Draw this beside it: a path or pattern. Repeatable."),
+    ] = None,
+    body: Annotated[str, typer.Option(metavar="PATH", help="The MuJoCo body, where there are several.")] = "",
+    camera: Annotated[str, typer.Option(metavar="NAME", help="Of the MJCF; default: one that follows.")] = "",
+    size: Annotated[str, typer.Option(metavar="WxH", help="Of the body's picture, pixels.")] = "640x480",
+    fps: Annotated[float, typer.Option(metavar="N", help="Frames a second.")] = 25.0,
+    speed: Annotated[
+        float, typer.Option(metavar="N", help="Simulated over shown time: 0.2 is slow motion.")
+    ] = 1.0,
+    frames: Annotated[int, typer.Option(metavar="N", help="Pictures of a film strip.")] = 8,
+    debug: Debug = False,
+) -> None:
+    """Draw a film of a run's rigid bodies, with curves beside them (needs OpenGL, see docs)."""
+    from arthur_acausal.cli.render import render as carry_out
+
+    typer.echo(
+        carry_out(
+            file,
+            output,
+            body=body,
+            camera=camera,
+            size=size,
+            fps=fps,
+            speed=speed,
+            frames=frames,
+            shown=shown,
+        )
+    )

@@ -35,12 +35,13 @@ class Need:
 class ExternalCall:
     """One call of an external function; a system's calls stand in an order in which each has what it needs.
 
-    ``name``: of the kernel of its inputs, ``inputs`` without compilation; ``first``: of its outputs in e; ``slope``:
-    where its derivatives (n_outputs, n_inputs) begin in d, by rows.
+    ``name``: of the kernel of its inputs, ``inputs`` without compilation; ``path``: of the component that calls;
+    ``first``: of its outputs in e; ``slope``: where its derivatives (n_outputs, n_inputs) begin in d, by rows.
     """
 
     name: str
     label: str
+    path: str
     where: str
     function: Any
     inputs: ca.Function = field(repr=False)

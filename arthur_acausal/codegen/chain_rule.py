@@ -75,6 +75,7 @@ class ChainRule:
                 ExternalCall(
                     f"call_{k}",
                     flat.text,
+                    flat.path,
                     flat.call.where,
                     flat.call.function,
                     function,

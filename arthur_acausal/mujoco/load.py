@@ -106,6 +106,45 @@ def _named(root: ElementTree.Element) -> Iterator[str]:
                 yield name
 
 
+def received(text: str, assets: dict[str, bytes], name: str) -> Source:
+    """Return a model that came as data, with all files that it names.
+
+    Raises UsageError where it names a file that did not come with it: MuJoCo would look for it on this machine.
+    """
+    documents = {PurePosixPath(name): text}
+    documents |= {
+        PurePosixPath(file): content.decode() for file, content in assets.items() if file.endswith(".xml")
+    }
+    roots = {place: _parse(content, str(place)) for place, content in documents.items()}
+    folders = {value for root in roots.values() for value in _folders(root)}
+    for place, root in roots.items():
+        for wanted in _named(root):
+            if not any(str(_inside(file, name)) in assets for file in _places(place.parent, folders, wanted)):
+                raise UsageError(f"{name} names the file {wanted!r}, which did not come with it")
+    return Source(text, assets, name)
+
+
+def _folders(root: ElementTree.Element) -> set[str]:
+    """Return the folders in which a document says that files are."""
+    return {value for c in root.iter("compiler") for attribute in FOLDERS if (value := c.get(attribute))}
+
+
+def _places(here: PurePosixPath, folders: set[str], wanted: str) -> set[PurePosixPath]:
+    """Return where MuJoCo may look for a file."""
+    names = {wanted, PurePosixPath(wanted).name}
+    return {PurePosixPath(start, name) for start in {str(here), "", *folders} for name in names}
+
+
+def _inside(file: PurePosixPath, name: str) -> PurePosixPath:
+    """Return the place of a file. Raises UsageError where it is none in the model's folder or below."""
+    if file.is_absolute() or ".." in file.parts or "\\" in str(file):
+        raise UsageError(
+            f"{name} names the file {file}, which is outside of the model's folder",
+            remedy="copy the file into the folder",
+        )
+    return file
+
+
 def _collect(
     root: ElementTree.Element,
     folder: Path,
@@ -115,12 +154,11 @@ def _collect(
     name: str,
 ) -> None:
     """Read what a document names into ``assets``; ``here``: where it stands itself, from ``folder``."""
-    folders |= {value for c in root.iter("compiler") for attribute in FOLDERS if (value := c.get(attribute))}
+    folders |= _folders(root)
     for wanted in _named(root):
         found = False
-        for start in {str(here), *folders}:
-            for file in {PurePosixPath(start, wanted), PurePosixPath(start, PurePosixPath(wanted).name)}:
-                found |= _read(file, folder, folders, assets, name)
+        for file in _places(here, folders, wanted):
+            found |= _read(file, folder, folders, assets, name)
         if not found:
             raise UsageError(
                 f"{name} names the file {wanted!r}, which is not there",
@@ -130,8 +168,8 @@ def _collect(
 
 def _read(file: PurePosixPath, folder: Path, folders: set[str], assets: dict[str, bytes], name: str) -> bool:
     """Read one file, and what it names if it is MJCF; False if there is none."""
-    path = (folder / file).resolve()
-    if file.is_absolute() or ".." in file.parts or "\\" in str(file) or not path.is_relative_to(folder):
+    path = (folder / _inside(file, name)).resolve()
+    if not path.is_relative_to(folder):  # by a symbolic link
         raise UsageError(
             f"{name} names the file {file}, which is outside of the model's folder",
             remedy="copy the file into the folder",

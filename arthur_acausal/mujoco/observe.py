@@ -164,6 +164,12 @@ def contact_geoms(model: MjModel, name: str) -> frozenset[int]:
     )
 
 
+def movable_geoms(model: MjModel) -> dict[int, str]:
+    """Return the names of all geoms that can move: their own, or else their bodies'."""
+    moves = (model.body_weldid[model.geom_bodyid] != 0).nonzero()[0].tolist()
+    return {k: model.geom(k).name or model.body(int(model.geom_bodyid[k])).name or f"geom {k}" for k in moves}
+
+
 def contact_forces(
     model: MjModel, data: MjData, geoms: frozenset[int]
 ) -> Iterator[tuple[FloatArray, FloatArray, float]]:

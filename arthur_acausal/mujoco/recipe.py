@@ -11,7 +11,7 @@ from typing import Any
 from arthur_acausal.mujoco.dynamics import Dynamics
 from arthur_acausal.mujoco.engine import MjModel
 from arthur_acausal.mujoco.layout import layout
-from arthur_acausal.mujoco.load import Source, build
+from arthur_acausal.mujoco.load import Source, build, received
 from arthur_acausal.mujoco.observe import ObservingDynamics, observables
 from arthur_acausal.mujoco.purity import pure
 
@@ -55,7 +55,7 @@ class Recipe:
         """Return the recipe that ``as_data`` has written."""
         assets = {str(name): b64decode(content) for name, content in data["assets"].items()}
         return cls(
-            Source(str(data["text"]), assets, str(data["name"])),
+            received(str(data["text"]), assets, str(data["name"])),
             str(data["keyframe"]),
             *(tuple(map(str, data[part])) for part in ("wrenches", "observe", "contacts")),
         )

@@ -7,7 +7,7 @@ import json
 import math
 import platform
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import metadata
 from types import SimpleNamespace
@@ -45,6 +45,8 @@ class Run:
     statistics : counts and wall times of the run: likewise.
     events : in order of time.
     audit : the model's energy terms: for each term the paths of the variables that sum to it.
+    externals : functions that are no equations and can be made again: {path of their component, function, data}.
+    beside : what a film of the model's bodies shows beside them: title -> {label: path}, as for `Solution.plot`.
     versions : of Arthur, of what it runs on, of Python and the platform, where a file says them; empty for a
         solution of this process.
     """
@@ -62,6 +64,8 @@ class Run:
     statistics: Any = None
     events: tuple[Event, ...] = ()
     audit: Mapping[str, Json] = field(default_factory=dict)
+    externals: Sequence[Mapping[str, Json]] = ()
+    beside: Mapping[str, Json] = field(default_factory=dict)
     versions: Mapping[str, str] = field(default_factory=dict)
 
 

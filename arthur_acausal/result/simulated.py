@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 from arthur_acausal.codegen.compiled import CompiledDAE
+from arthur_acausal.codegen.portable import reference
 from arthur_acausal.codegen.recovery import Source
 from arthur_acausal.codegen.refine import Rows, refine
+from arthur_acausal.errors import UsageError
 from arthur_acausal.result.chain import Piece, PiecewiseValues, Variant, joined, simulate_pieces
 from arthur_acausal.result.interpolate import FloatArray
 from arthur_acausal.result.run import Run
@@ -172,7 +175,7 @@ def describe_run(
 ) -> Run:
     """All that is to be kept with a solution about how it came about."""
     table = dae.parameters
-    terms = getattr(model, "audit_terms", None)
+    terms, beside = getattr(model, "audit_terms", None), getattr(model, "beside", None)
     return Run(
         model=dae.name,
         description=(inspect.getdoc(model) or "").partition("\n")[0],
@@ -189,7 +192,18 @@ def describe_run(
         statistics=trajectory.statistics,
         events=tuple(trajectory.events),
         audit=terms() if terms is not None else {},
+        externals=[*described(dae)],
+        beside=beside() if beside is not None else {},
     )
+
+
+def described(dae: CompiledDAE) -> Iterator[dict[str, Any]]:
+    """Yield the external functions that say how they are made, in terms of JSON."""
+    for call in dae.calls:
+        if hasattr(call.function, "describe"):
+            with suppress(UsageError):  # of a class that other processes do not find
+                name, data = reference(call.function)
+                yield {"path": call.path, "function": name, "data": data}
 
 
 def describe_input(value: Input) -> float | str:

@@ -31,7 +31,8 @@ FORMAT = "arthur-acausal solution 1"
 VARIABLE, DERIVATIVE = "variable", "derivative"  # roles: of the model, or a state's dx/dt for interpolation
 RELATIONS, RELATION = "truth of relations", "relation"  # a variable and its second axis
 TEXT_ATTRIBUTES = ("model", "description", "status", "message")
-JSON_ATTRIBUTES = ("parameters", "inputs", "start", "options", "statistics", "events", "audit")
+LATER = ("externals", "beside")  # not in every file of this format
+JSON_ATTRIBUTES = ("parameters", "inputs", "start", "options", "statistics", "events", "audit", *LATER)
 VERSION = "_version"
 
 Said: TypeAlias = Mapping[str, str | float]  # attributes

@@ -143,6 +143,8 @@ def read_run(dataset: Any) -> Run:
         statistics=namespace(json.loads(text(dataset, "statistics"))),
         events=tuple(Event(**event) for event in json.loads(text(dataset, "events"))),
         audit=json.loads(text(dataset, "audit")),
+        externals=json.loads(text(dataset, "externals", "[]")),
+        beside=json.loads(text(dataset, "beside", "{}")),
         versions={name.removesuffix(VERSION): text(dataset, name) for name in attributes},
     )
 

@@ -143,6 +143,14 @@ class Quadruped(Hydraulics):
         """Return how it walked and what that took: see models.arthur.figures."""
         return figures(solution, self.payload)
 
+    def beside(self) -> dict[str, dict[str, str]]:
+        """Return what a film shows beside the robot: the supply's pressures, and the chambers of a knee."""
+        knee = f"actuators[{JOINT_NAMES.index('FL_knee')}].cylinder"
+        return {
+            "supply [bar]": {"manifold": "unit.manifold.p", "filter": "unit.filter.p_s"},
+            "FL knee [bar]": {"side A": f"{knee}.p_A", "side B": f"{knee}.p_B"},
+        }
+
     def sensors(self) -> list[SX]:
         """Return what the controller is given.
 

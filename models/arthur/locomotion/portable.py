@@ -40,7 +40,7 @@ def of_data(data: Mapping[str, Any]) -> Configuration:
 
 def _value(kind: Any, data: Any) -> Any:
     """Return a value of this type: a dataclass, a tuple, or what JSON has itself."""
-    if is_dataclass(kind):
+    if isinstance(kind, type) and is_dataclass(kind):
         hints = get_type_hints(kind)
         return kind(**{name: _value(hints[name], value) for name, value in data.items()})
     if get_origin(kind) is tuple:
