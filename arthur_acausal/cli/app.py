@@ -269,7 +269,7 @@ def render(
     frames: Annotated[int, typer.Option(metavar="N", help="Pictures of a film strip.")] = 8,
     debug: Debug = False,
 ) -> None:
-    """Draw a film of a run's rigid bodies, with curves beside them (needs OpenGL, see docs)."""
+    """Draw a film of a run's rigid bodies, with curves beside them."""
     from arthur_acausal.cli.render import render as carry_out
 
     typer.echo(

@@ -22,8 +22,8 @@ def render(
     shown: Sequence[str] | None,
 ) -> str:
     """Carry out ``arthur render``."""
-    from arthur_acausal.mujoco.film import View
-    from arthur_acausal.mujoco.film import render as carry_out
+    from arthur_acausal.render import View
+    from arthur_acausal.render import render as carry_out
     from arthur_acausal.result.stored import load
 
     parts = re.fullmatch(r"(\d+)x(\d+)", size)

@@ -32,6 +32,7 @@ LAYERS = (
     "components",
     "mujoco",
     "models",
+    "render",
     "request",
     "sweep",
     "cli",

@@ -23,10 +23,11 @@ from arthur_acausal import (
 )
 from arthur_acausal.cli.batch import app
 from arthur_acausal.components.rotational import Inertia
-from arthur_acausal.mujoco import MujocoBody, movie, offscreen
-from arthur_acausal.mujoco.film import Acting, bodies, render
+from arthur_acausal.mujoco import MujocoBody, offscreen
+from arthur_acausal.mujoco.acting import Acting, bodies
 from arthur_acausal.mujoco.offscreen import Image, canvas
 from arthur_acausal.mujoco.recipe import Recipe
+from arthur_acausal.render import movie, render
 from tests.mujoco.models import PENDULUM, SPHERE
 
 SIZE, DEPTH, LENGTH = (120, 90), 3.0, 0.5
