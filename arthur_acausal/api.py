@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from arthur_acausal.codegen.compiled import CompiledDAE
 from arthur_acausal.codegen.generate import generate
 from arthur_acausal.declare.model import Component
-from arthur_acausal.errors import UsageError
+from arthur_acausal.errors import ResultError, UsageError
 from arthur_acausal.flatten.flatten import flatten
 from arthur_acausal.flatten.system import FlatSystem
 from arthur_acausal.transform.structured import StructuredDAE, StructureReport, report, transform
@@ -97,6 +97,23 @@ class Translation:
             variant=self._variant,
             begin=begin,
         )
+        solution.powers = Powers(self.flat, self.structured)
+        return solution
+
+    def adopt(self, solution: Solution) -> Solution:
+        """Let a solution that was read from a file know this model's connectors, for `Solution.power`; return it.
+
+        Raises ResultError where it is of another model.
+        """
+        from arthur_acausal.result.power import Powers
+
+        other = sorted(set(solution.paths) ^ set(self.dae.recovery.paths))
+        if other:
+            raise ResultError(
+                f"the solution of {solution.model or 'a model'} is not of this model, {self.dae.name}",
+                cause=f"only one of them has {other[0]}",
+                remedy="translate the model that it was simulated with, its structural parameters as they were",
+            )
         solution.powers = Powers(self.flat, self.structured)
         return solution
 

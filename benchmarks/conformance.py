@@ -39,14 +39,11 @@ VALUE_TUBE, TIME_TUBE = 1e-3, 2e-3  # shares of a signal's range and of the time
 LIBRARY = (
     "blocks",
     "circuits",
+    "semiconductors",
     "drives",
     "electrical",
-    "filters",
-    "losses",
     "mechanics",
     "rotational",
-    "semiconductors",
-    "switching",
     "thermal",
     "translational",
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -11,18 +11,16 @@ import numpy as np
 from casadi import SX
 from numpy.typing import NDArray
 
-from arthur_acausal.declare.authored import authored, defined_at, place
 from arthur_acausal.declare.external import External, ExternalFunction
-from arthur_acausal.declare.model import Component, title_of
+from arthur_acausal.declare.model import Component
 from arthur_acausal.declare.sampled import Sampled
 from arthur_acausal.declare.scope import Atom, Scope, using
 from arthur_acausal.declare.statement import Connection, Reinit, Terminate, When
-from arthur_acausal.declare.vector import elements
 from arthur_acausal.errors import DeclarationError
+from arthur_acausal.flatten.statements import bad, each_of, statements
 
 BoolArray = NDArray[np.bool_]
 
-_OVER = object()
 SHOWN = 100  # characters of an equation that a message shows
 
 
@@ -143,11 +141,11 @@ def run_block(component: Component, scope: Scope) -> Block:
     block = Block()
     first = len(scope.relations)
     with using(scope):
-        for statement, label, where in _statements(component, scope, "equations"):
+        for statement, label, where in statements(component, scope, "equations"):
             _sort(statement, label, where, component, scope, block)
-        for statement, label, where in _statements(component, scope, "initial_equations"):
+        for statement, label, where in statements(component, scope, "initial_equations"):
             if not _is_equation(statement):
-                raise _bad(component, where, f"initial_equations() yields equations only, not {statement!r}")
+                raise bad(component, where, f"initial_equations() yields equations only, not {statement!r}")
             block.initial.append(make_equation(statement, label, where, scope))
     block.relations = [
         Comparison(
@@ -156,58 +154,6 @@ def run_block(component: Component, scope: Scope) -> Block:
         for r in scope.relations[first:]
     ]
     return block
-
-
-def _statements(component: Component, scope: Scope, method: str) -> Iterator[tuple[Any, str, str]]:
-    """Yield (statement, label, file:line); a statement may be yielded alone or as (label, statement)."""
-    title = title_of(component)
-    line = defined_at(getattr(type(component), method))
-    with authored(f"{method}()", title, line):
-        generator = getattr(component, method)()
-    if not hasattr(generator, "gi_frame"):
-        raise _bad(
-            component, line, f"{method}() yields nothing", "write `yield lhs == rhs` for each equation"
-        )
-    while True:
-        made = len(scope.relations)
-        with authored(f"{method}()", title, line):
-            item = next(generator, _OVER)
-        if item is _OVER:
-            return
-        where = _line(generator)
-        for i in range(made, len(scope.relations)):
-            scope.relations[i] = replace(scope.relations[i], where=where)
-        label, statement = item if isinstance(item, tuple) and len(item) == 2 else ("", item)
-        if not isinstance(statement, SX) or statement.numel() == 1:
-            yield statement, label, where
-            continue
-        for k, element in enumerate(_rows(statement, component, where)):
-            yield element, f"{label}[{k}]" if label else "", where
-
-
-def _rows(statement: SX, component: Component, where: str) -> list[SX]:
-    """Return the equations of a column, one each."""
-    if statement.numel() and not statement.is_vector():
-        raise _bad(
-            component,
-            where,
-            f"{statement.size1()} x {statement.size2()} equations at once",
-            "yield them column by column: lhs[:, 0] == rhs[:, 0]",
-        )
-    return elements(statement)
-
-
-def _line(generator: Any) -> str:
-    while getattr(generator, "gi_yieldfrom", None) is not None and hasattr(
-        generator.gi_yieldfrom, "gi_frame"
-    ):
-        generator = generator.gi_yieldfrom
-    frame = generator.gi_frame
-    return place(frame.f_code.co_filename, frame.f_lineno)
-
-
-def _bad(component: Component, where: str, message: str, remedy: str = "") -> DeclarationError:
-    return DeclarationError(message, path=title_of(component), where=where, remedy=remedy)
 
 
 def _is_equation(statement: Any) -> bool:
@@ -225,9 +171,7 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
     elif isinstance(statement, When):
         for earlier, (condition, statements) in enumerate(statement.branches):
             assignments = tuple(
-                _assignment(each, where, component, scope)
-                for s in statements
-                for each in _scalars_of(s, where)
+                _assignment(each, where, component, scope) for s in statements for each in each_of(s, where)
             )
             tested = make_expression(condition, where, scope)
             block.clauses.append(Clause(tested, assignments, label, where, earlier))
@@ -246,14 +190,14 @@ def _sort(statement: Any, label: str, where: str, component: Component, scope: S
             block.equations.append(make_equation(statement, label, where, scope))
     elif isinstance(statement, bool) or (isinstance(statement, SX) and statement.is_constant()):
         truth = "true" if bool(statement) else "false"
-        raise _bad(
+        raise bad(
             component,
             where,
             f"an equation that is always {truth}: both sides are the same expression, or numbers",
             "remove it, or write what was meant",
         )
     else:
-        raise _bad(
+        raise bad(
             component,
             where,
             f"{statement!r} is no equation",
@@ -312,37 +256,19 @@ def _through(own: Expression, inputs: tuple[Expression, ...], present: BoolArray
     return Expression(own.value, symbols, atoms, frozenset(through))
 
 
-def _scalars_of(statement: Any, where: str) -> list[Any]:
-    """Return what a statement in ``when`` says of each element of a vector."""
-    if isinstance(statement, SX):
-        return elements(statement)
-    if not isinstance(statement, Reinit) or statement.target.numel() == statement.value.numel() == 1:
-        return [statement]
-    targets, values = elements(statement.target), elements(statement.value)
-    if len(values) not in (1, len(targets)):
-        raise DeclarationError(
-            f"reinit() of {len(targets)} states to {len(values)} values",
-            where=where,
-            remedy="give one value for all, or one for each",
-        )
-    return [
-        Reinit(x, value) for x, value in zip(targets, values * (len(targets) // len(values)), strict=True)
-    ]
-
-
 def _assignment(statement: Any, where: str, component: Component, scope: Scope) -> Assignment:
     if isinstance(statement, Terminate):
         return Assignment(None, make_expression(SX(0.0), where, scope), statement.message, where)
     if isinstance(statement, Reinit):
         target = scope.atom(statement.target)
         if target is None or target.kind != "variable":
-            raise _bad(component, where, "reinit() takes a variable as its target")
+            raise bad(component, where, "reinit() takes a variable as its target")
         return Assignment(target, make_expression(statement.value, where, scope), "", where)
     if _is_equation(statement):
         target = scope.atom(statement.dep(0))
         if target is not None and target.kind == "discrete":
             return Assignment(target, make_expression(statement.dep(1), where, scope), "", where)
-    raise _bad(
+    raise bad(
         component,
         where,
         "inside when() stand reinit(state, value), terminate(message), and discrete == value",

@@ -287,7 +287,7 @@ class Solution:
         if self.powers is None:
             raise ResultError(
                 "this solution does not know its model's connectors: it was read from a file",
-                remedy="simulate the model anew",
+                remedy="give it the model that it is of: translate(model).adopt(solution), or simulate anew",
             )
         return self.powers
 

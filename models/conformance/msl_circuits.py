@@ -14,20 +14,25 @@ from arthur_acausal import Component, Equations, Real, SolverOptions, connect, p
 from arthur_acausal.components.blocks import (
     Constant,
     CosineVariableFrequencyAndAmplitude,
+    Pulse,
     Ramp,
     SineVariableFrequencyAndAmplitude,
 )
 from arthur_acausal.components.electrical import (
     Capacitor,
     ChuaDiode,
+    CloserWithArc,
     Conductor,
     ConstantVoltage,
+    ControlledCloserWithArc,
+    ControlledIdealClosingSwitch,
     CurrentSensor,
     Ground,
     HeatingResistor,
+    IdealClosingSwitch,
     IdealDiode,
-    IdealOpAmpLimited,
     IdealTransformer,
+    IdealTriac,
     Inductor,
     Resistor,
     SaturatingInductor,
@@ -35,9 +40,10 @@ from arthur_acausal.components.electrical import (
     SignalVoltage,
     SineVoltage,
     Transformer,
-    TrapezoidVoltage,
+    TwoPin,
     VariableResistor,
     VoltageSensor,
+    ZenerDiode,
 )
 from arthur_acausal.components.thermal import FixedTemperature, ThermalConductor
 from arthur_acausal.models.conformance.case import Case
@@ -214,31 +220,91 @@ class ShowVariableResistor(Component):
         yield connect(self.Ramp1.y, self.VariableResistor.R)
 
 
-class InvertingAmp(Component):
-    """An operational amplifier with limits amplifies a trapezoid by -2 (InvertingAmp)."""
+class _Switched(Component):
+    """Two coils with resistors, each behind one of two switches."""
 
-    opAmp = IdealOpAmpLimited()
-    vIn = TrapezoidVoltage(
-        V=10.0, rising=0.02, width=0.03, falling=0.02, period=0.1, offset=-5.0, start_time=-0.035
-    )
-    vOut = VoltageSensor()
-    r1 = Resistor(R=1000.0)
-    r2 = Resistor(R=2000.0)
-    vSourcePos = ConstantVoltage(V=15.0)
-    vSourceNeg = ConstantVoltage(V=-15.0)
+    def build(self) -> None:
+        self.constantVoltage1, self.constantVoltage2 = [ConstantVoltage(V=50.0) for _ in range(2)]
+        self.inductor1, self.inductor2 = [Inductor(L=0.1, i=start(0.0, fixed=True)) for _ in range(2)]
+        self.resistor1, self.resistor2 = [Resistor(R=1.0) for _ in range(2)]
+        self.ground1, self.ground2 = [Ground() for _ in range(2)]
+
+    def circuits(self, switch1: TwoPin, switch2: TwoPin) -> Equations:
+        """Yield the connections of both circuits."""
+        for source, switch, inductor, resistor, ground in (
+            (self.constantVoltage1, switch1, self.inductor1, self.resistor1, self.ground1),
+            (self.constantVoltage2, switch2, self.inductor2, self.resistor2, self.ground2),
+        ):
+            yield connect(source.pin_p, switch.pin_p)
+            yield connect(switch.pin_n, inductor.pin_p)
+            yield connect(inductor.pin_n, resistor.pin_p)
+            yield connect(resistor.pin_n, ground.pin)
+            yield connect(source.pin_n, ground.pin)
+
+
+class SwitchWithArc(_Switched):
+    """Two coils with resistors, switched off without and with an arc (SwitchWithArc)."""
+
+    booleanPulse = Pulse(period=1.0)
+    switch1 = IdealClosingSwitch()
+    switch2 = CloserWithArc()
+
+    def equations(self) -> Equations:
+        yield from self.circuits(self.switch1, self.switch2)
+        yield connect(self.booleanPulse.y, self.switch1.control)
+        yield connect(self.booleanPulse.y, self.switch2.control)
+
+
+class ControlledSwitchWithArc(_Switched):
+    """The same with switches that a voltage controls (ControlledSwitchWithArc)."""
+
+    switch1 = ControlledIdealClosingSwitch()
+    switch2 = ControlledCloserWithArc()
+    sineVoltage = SineVoltage(V=1.0, f=1.0)
     ground = Ground()
 
     def equations(self) -> Equations:
-        for pin in (self.vIn.pin_n, self.vOut.pin_n, self.vSourcePos.pin_n, self.vSourceNeg.pin_n):
+        yield from self.circuits(self.switch1, self.switch2)
+        yield connect(self.sineVoltage.pin_n, self.ground.pin)
+        yield connect(self.sineVoltage.pin_p, self.switch1.control_pin)
+        yield connect(self.sineVoltage.pin_p, self.switch2.control_pin)
+
+
+class OvervoltageProtection(Component):
+    """Two Zener diodes against each other hold the voltage of a load (OvervoltageProtection)."""
+
+    sineVoltage = SineVoltage(V=10.0, f=5.0)
+    Rv = Resistor(R=20.0)
+    RL = Resistor(R=2000.0)
+    CL = Capacitor(C=1e-7, v=start(0.0, fixed=True))
+    zDiode = ZenerDiode()
+    zDiode1 = ZenerDiode()
+    ground = Ground()
+
+    def equations(self) -> Equations:
+        yield connect(self.sineVoltage.pin_p, self.Rv.pin_p)
+        for pin in (self.RL.pin_p, self.CL.pin_p, self.zDiode1.pin_p):
+            yield connect(self.Rv.pin_n, pin)
+        yield connect(self.zDiode1.pin_n, self.zDiode.pin_n)
+        for pin in (self.sineVoltage.pin_n, self.RL.pin_n, self.CL.pin_n, self.zDiode.pin_p):
             yield connect(pin, self.ground.pin)
-        yield connect(self.opAmp.in_p, self.ground.pin)
-        yield connect(self.vIn.pin_p, self.r1.pin_p)
-        yield connect(self.r1.pin_n, self.r2.pin_n)
-        yield connect(self.r2.pin_n, self.opAmp.in_n)
-        yield connect(self.r2.pin_p, self.opAmp.out)
-        yield connect(self.opAmp.out, self.vOut.pin_p)
-        yield connect(self.vSourcePos.pin_p, self.opAmp.v_max)
-        yield connect(self.vSourceNeg.pin_p, self.opAmp.v_min)
+
+
+class IdealTriacCircuit(Component):
+    """A triac cuts a sine, fired by pulses (IdealTriacCircuit)."""
+
+    V = SineVoltage(V=5.0, f=2.0)
+    R = Resistor(R=20.0)
+    idealTriac = IdealTriac()
+    booleanPulse = Pulse(duty=0.5, period=0.25, start_time=0.1)
+    ground = Ground()
+
+    def equations(self) -> Equations:
+        yield connect(self.V.pin_p, self.R.pin_p)
+        yield connect(self.R.pin_n, self.idealTriac.pin_n)
+        yield connect(self.idealTriac.pin_p, self.ground.pin)
+        yield connect(self.V.pin_n, self.ground.pin)
+        yield connect(self.booleanPulse.y, self.idealTriac.fire)
 
 
 class SeriesResonance(Component):
@@ -317,18 +383,20 @@ def _options(intervals: int) -> SolverOptions:
 
 
 _E = "msl_Electrical_Analog_"
-_CHUA = {"v1": "C1.v", "v2": "C2.v", "inductor.i": "L.i"}
 _PHASES = {"sineVoltage.phi": "sine.phi", "cosineVoltage.phi": "cosine.phi"}
 _CURRENT_PHASES = {"sineCurrent.phi": "sine.phi", "cosineCurrent.phi": "cosine.phi"}
 
 _CASES = (
-    Case(f"{_E}ChuaCircuit", ChuaCircuit, _CHUA, 5e4, SolverOptions(rtol=1e-10, intervals=50000)),
+    Case(f"{_E}ChuaCircuit", ChuaCircuit, {}, 5e4, SolverOptions(rtol=1e-10, intervals=50000)),
     Case(f"{_E}Rectifier", Rectifier, {}, 0.1, _options(10000)),
     Case(f"{_E}CompareTransformers", CompareTransformers, {}, 50.0, _options(50000)),
     Case(f"{_E}Resistor", WarmResistor, {}, 5.0),
     Case(f"{_E}ShowSaturatingInductor", ShowSaturatingInductor, {}, 6.2832, _options(2000)),
     Case(f"{_E}ShowVariableResistor", ShowVariableResistor, {}, 1.0, _options(2000)),
-    Case(f"{_E}InvertingAmp", InvertingAmp, {}, 1.0, _options(2000)),
+    Case(f"{_E}SwitchWithArc", SwitchWithArc, {}, 2.0, _options(8000)),
+    Case(f"{_E}ControlledSwitchWithArc", ControlledSwitchWithArc, {}, 6.0, _options(24000)),
+    Case(f"{_E}OvervoltageProtection", OvervoltageProtection, {}, 0.4, _options(5000)),
+    Case(f"{_E}IdealTriacCircuit", IdealTriacCircuit, {}, 2.0, _options(5000)),
     Case(f"{_E}SeriesResonance", SeriesResonance, _PHASES, 1.0, _options(10000)),
     Case(f"{_E}ParallelResonance", ParallelResonance, _CURRENT_PHASES, 1.0, _options(10000)),
 )

@@ -10,16 +10,17 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from arthur_acausal import Solution, SolverOptions, simulate
-from arthur_acausal.models.conformance import msl_circuits, msl_switching
+from arthur_acausal.models.conformance import msl_circuits as circuits
 from arthur_acausal.models.conformance.case import Case
 
 Floats = NDArray[np.float64]
-CASES = msl_circuits.CASES | msl_switching.CASES
 PRECISE = SolverOptions(rtol=1e-8, intervals=1000)
 
 
 def run(name: str, stop_time: float) -> Solution:
-    return simulate(CASES[f"msl_Electrical_Analog_{name}"].model(), stop_time=stop_time, options=PRECISE)
+    return simulate(
+        circuits.CASES[f"msl_Electrical_Analog_{name}"].model(), stop_time=stop_time, options=PRECISE
+    )
 
 
 def chua(t: float, x: Floats) -> list[float]:
@@ -44,7 +45,7 @@ def transformer(t: float, x: Floats) -> Floats:
     leak = 0.05 / (20 * np.pi)
     L = np.array([[leak + 200 * leak, 100 * leak], [100 * leak, leak / 4 + 50 * leak]])
     v = np.array([0.1 + 0.1 * np.sin(20 * np.pi * t + np.pi / 2), 0.0])
-    return np.asarray(np.linalg.solve(L, v - np.array([0.01, 0.2525]) * x), dtype=np.float64)
+    return np.asarray(np.linalg.solve(L, v - np.array([0.01, 0.2525]) * x))
 
 
 REFERENCES: dict[str, tuple[Callable[[float, Floats], object], list[float], list[str], float]] = {
@@ -131,16 +132,6 @@ def test_a_triac_conducts_both_ways_from_firing_to_the_end_of_the_current() -> N
         assert load[on] == pytest.approx(v[on] - sign * 0.8, abs=1e-4)
 
 
-def test_an_inverting_amplifier_amplifies_by_its_resistors() -> None:
-    """From the middle of a plateau on: 5 V, down within 20 ms, -5 V for 30 ms, up."""
-    solution = run("InvertingAmp", 0.2)
-    t = solution.t
-    corners = [0.0, 0.015, 0.035, 0.065, 0.085, 0.115, 0.135, 0.165, 0.185, 0.2]
-    v = np.interp(t, corners, [5.0, 5.0, -5.0, -5.0, 5.0, 5.0, -5.0, -5.0, 5.0, 5.0])
-    assert solution["vIn.v"] == pytest.approx(v, abs=1e-9)
-    assert solution["vOut.v"] == pytest.approx(-2 * v, abs=1e-9)
-
-
 def test_a_rectifier_keeps_its_energy_balance() -> None:
     solution = run("Rectifier", 0.1)
     t, phases = solution.t, range(1, 4)
@@ -155,7 +146,7 @@ def test_a_rectifier_keeps_its_energy_balance() -> None:
 
 
 def test_a_signal_of_modelica_finds_its_variable() -> None:
-    case = Case("any", msl_circuits.ChuaCircuit, {"phi": "sine.phi"}, 1.0)
+    case = Case("any", circuits.ChuaCircuit, {"phi": "sine.phi"}, 1.0)
     known = {"sine.phi", "a.pin_p.v", "b.x_1", "c[0].P_loss", "d.heat_port.T"}
     names = {
         "phi": "sine.phi",

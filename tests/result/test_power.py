@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -82,6 +84,21 @@ def test_a_spring_gives_what_the_damper_takes() -> None:
 
 def test_the_powertrain_closes() -> None:
     closes(translate(Demo()).simulate(0.2, tolerance=1e-6), 1e-6)
+
+
+def test_a_solution_out_of_a_file_knows_powers_by_its_model(tmp_path: Path) -> None:
+    model = translate(Swinging())
+    simulated = model.simulate(1.0)
+    simulated.save(tmp_path / "swinging.nc")
+    stored = Solution.load(tmp_path / "swinging.nc")
+    with pytest.raises(ResultError, match="read from a file") as caught:
+        stored.power("mass.flange")
+    assert "translate(model).adopt(solution)" in caught.value.remedy
+    assert model.adopt(stored) is stored
+    for connector in ("mass.flange", "damper.flange_a", "spring.flange_b"):
+        assert np.array_equal(stored.power(connector), simulated.power(connector))
+    with pytest.raises(ResultError, match="the solution of Swinging is not of this model, Charging"):
+        translate(Charging()).adopt(stored)
 
 
 def test_what_there_is_not() -> None:
