@@ -5,8 +5,9 @@ from __future__ import annotations
 import ast
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
+from keyword import iskeyword
 from typing import Any
 
 import casadi as ca
@@ -21,6 +22,7 @@ OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.Mult: lambda a, b: a * b,
     ast.Div: lambda a, b: a / b,
     ast.Pow: lambda a, b: a**b,
+    ast.Mod: lambda a, b: a - b * ca.floor(a / b),
     ast.USub: lambda a: -a,
     ast.UAdd: lambda a: a,
 }
@@ -34,11 +36,14 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     name: getattr(ca, name)
     for name in (
         *("sqrt", "exp", "log", "log10", "sin", "cos", "tan", "asin", "acos", "atan", "atan2"),
-        *("sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "fabs", "floor", "ceil", "sign", "fmod", "erf"),
+        *("sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "fabs", "floor", "ceil", "fmod", "erf"),
     )
-} | {"abs": ca.fabs, "ln": ca.log, "pow": lambda a, b: a**b}
+} | {
+    **{"abs": ca.fabs, "ln": ca.log, "pow": OPERATORS[ast.Pow], "mod": OPERATORS[ast.Mod]},
+    **{"sign": lambda x: _sign(x), "heaviside": lambda x: (_sign(x) + 1.0) / 2.0},
+}
 EXTREMES: dict[str, Callable[..., Any]] = {"min": ca.fmin, "fmin": ca.fmin, "max": ca.fmax, "fmax": ca.fmax}
-CHOICES = ("if_else", "where")
+CHOICES = ("if_else", "ifelse", "where")
 
 
 class TextError(ValueError):
@@ -53,16 +58,28 @@ def value_of(text: str | float, names: Mapping[str, Any]) -> Any:
     if isinstance(text, int | float):
         return float(text)
     try:
-        return _walk(ast.parse(text.strip(), mode="eval").body, names)
+        return _walk(ast.parse(_python(text), mode="eval").body, names)
     except SyntaxError as error:
         raise TextError(f"{text!r}: {error.msg}") from None
+
+
+def _python(text: str) -> str:
+    """Return a text with what other languages write otherwise: ^ for a power, a variable called lambda."""
+    return re.sub(r"\blambda\b", "lambda_", text.strip().replace("^", "**"))
+
+
+def _plain(node: ast.expr) -> str:
+    """Return the text of a name with or without indices, without blanks."""
+    return re.sub(r"\blambda_\b", "lambda", ast.unparse(node)).replace(" ", "")
 
 
 def _walk(node: ast.expr, names: Mapping[str, Any]) -> Any:
     match node:
         case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
             return float(number)
-        case ast.Name(id=name) if name in names:
+        case ast.Name() if (name := _plain(node)) in names:
+            return names[name]
+        case ast.Subscript(value=ast.Name()) if (name := _plain(node)) in names:
             return names[name]
         case ast.BinOp(left=left, op=op, right=right) if type(op) in OPERATORS:
             return OPERATORS[type(op)](_walk(left, names), _walk(right, names))
@@ -70,8 +87,10 @@ def _walk(node: ast.expr, names: Mapping[str, Any]) -> Any:
             return OPERATORS[type(op)](_walk(operand, names))
         case ast.IfExp(test=test, body=then, orelse=otherwise):
             return _choice(test, then, otherwise, names)
-        case ast.Call(func=ast.Name(id="der"), args=[ast.Name(id=name)], keywords=[]):
-            return names[f"der({name})"]
+        case ast.Call(func=ast.Name(id="der"), args=[argument], keywords=[]) if (
+            rate := f"der({_plain(argument)})"
+        ) in names:
+            return names[rate]
         case ast.Call(func=ast.Name(id=name), args=[test, then, otherwise], keywords=[]) if name in CHOICES:
             return _choice(test, then, otherwise, names)
         case ast.Call(func=ast.Name(id=name), args=[_, *_], keywords=[]) if name in EXTREMES:
@@ -109,6 +128,13 @@ def _condition(node: ast.expr, names: Mapping[str, Any]) -> Any:
     raise TextError(f"{ast.unparse(node)!r} is no condition")
 
 
+def _sign(x: Any) -> Any:
+    """Return the sign; in equations it makes events."""
+    if not isinstance(x, SX) or x.is_constant():
+        return ca.sign(x)
+    return if_else(x > 0.0, SX(1.0), if_else(x < 0.0, SX(-1.0), SX(0.0)))
+
+
 def _both(a: Any, b: Any) -> Any:
     if isinstance(a, SX) and isinstance(b, SX):
         return ca.logic_and(a, b)
@@ -128,55 +154,99 @@ def _sides(text: str) -> tuple[str, str]:
     return parts[0], parts[1] if len(parts) == 2 else "0"
 
 
-def _starts(case: Mapping[str, Any], numbers: dict[str, Any]) -> dict[str, float]:
+def numbers(case: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the parameters' values; they may use each other, in any order."""
+    return _solved(case["parameters"], {"pi": math.pi}, needed=case["parameters"])
+
+
+def starts(case: Mapping[str, Any]) -> dict[str, float]:
     """Return the initial values; they may use definitions and each other, in any order."""
-    waiting: dict[str, Any] = dict(case.get("definitions", [])) | {
-        n: case["y0"][n] for n in case["variables"]
-    }
-    known = {"t": float(case["t0"])} | numbers
+    names: list[str] = case["variables"]
+    texts: dict[str, Any] = dict(case.get("definitions", [])) | {n: case["y0"][n] for n in names}
+    known = _solved(texts, {"t": float(case["t0"])} | numbers(case), needed=names)
+    return {name: known[name] for name in names}
+
+
+def _solved(texts: Mapping[str, Any], known: Mapping[str, Any], needed: Iterable[str]) -> dict[str, Any]:
+    """Return what is known, and the value of each text as soon as all that it uses is known."""
+    values, waiting = dict(known), dict(texts)
     while True:
         before = len(waiting)
         for name, text in list(waiting.items()):
             try:
-                known[name] = float(value_of(text, known))
+                values[name] = float(value_of(text, values))
             except (TextError, KeyError):
                 continue
             del waiting[name]
         if len(waiting) == before:
             break
-    missing = [name for name in case["variables"] if name in waiting]
-    if missing:
-        value_of(waiting[missing[0]], known)  # says what is wrong
-    return {name: known[name] for name in case["variables"]}
+    for name in needed:
+        if name in waiting:
+            value_of(waiting[name], values)  # says what is wrong
+    return values
 
 
-def problem(
-    case: Mapping[str, Any], nominal: Mapping[str, float] | None = None, unknown: float = 1.0
-) -> Component:
+def problem(case: Mapping[str, Any], nominal: Mapping[str, float] | None = None) -> Component:
     """Return the component of a problem: its variables as variables, its initial values as start values.
 
-    ``nominal``: magnitudes of variables; of the others that of the initial value, ``unknown`` where it is zero.
+    ``nominal``: magnitudes of variables; of the others that of the initial value, 1 where it is zero.
     """
-    numbers: dict[str, Any] = {"pi": math.pi}
-    for name, text in case["parameters"].items():
-        numbers[name] = value_of(text, numbers)
-    names: list[str] = case["variables"]
-    starts = _starts(case, numbers)
+    first, given = starts(case), numbers(case)
+    attribute = attributes(case)
+    definitions = dict(case.get("definitions", []))
+    texts = [str(text) for text in (*case["equations"], *definitions.values())]
+    rates = {name for text in texts for name in re.findall(r"\bder\(\s*([^()]+?)\s*\)", text)}
 
     def equations(self: Component) -> Equations:
-        known = numbers | {"t": time()} | {name: getattr(self, name) for name in names}
-        texts = [*case["equations"], *(text for _, text in case.get("definitions", []))]
-        rates = {name for text in texts for name in re.findall(r"\bder\(\s*(\w+)\s*\)", str(text))}
-        known |= {f"der({name})": der(getattr(self, name)) for name in rates if name in names}
-        for name, text in case.get("definitions", []):
-            known[name] = value_of(text, known)
+        own = {name: getattr(self, path) for name, path in attribute.items()}
+        known: dict[str, Any] = {"time": time(), "t": time()} | given | own
+        known |= {f"der({name})": der(own[name]) for name in sorted(rates & own.keys())}
+        known = Definitions(known, definitions)
         for text in case["equations"]:
             left, right = _sides(text)
             yield SX(value_of(left, known)) == SX(value_of(right, known))
 
-    body: dict[str, Any] = {name: variable("1") for name in names}
-    body |= {"__annotations__": dict.fromkeys(names, "Real"), "equations": equations, "__module__": __name__}
+    body: dict[str, Any] = {path: variable("1") for path in attribute.values()}
+    body |= {
+        "__annotations__": dict.fromkeys(attribute.values(), "Real"),
+        "equations": equations,
+        "__module__": __name__,
+    }
     kind = type(case["name"], (Component,), body)
-    sizes = {n: abs(v) or unknown for n, v in starts.items()} | dict(nominal or {})
-    model: Component = kind(**{n: start(v, nominal=sizes[n]) for n, v in starts.items()})
+    sizes = {name: abs(value) or 1.0 for name, value in first.items()} | dict(nominal or {})
+    model: Component = kind(
+        **{attribute[name]: start(value, nominal=sizes[name]) for name, value in first.items()}
+    )
     return model
+
+
+def attributes(case: Mapping[str, Any]) -> dict[str, str]:
+    """Return for each variable the name of its attribute: its own unless that is none in Python, or is taken."""
+    found: dict[str, str] = {}
+    taken = {name for name in case["variables"] if name.isidentifier()}
+    for name in case["variables"]:
+        path = re.sub(r"\W+", "_", name).strip("_")
+        while (
+            path in taken - {name} or not path.isidentifier() or iskeyword(path) or hasattr(Component, path)
+        ):
+            path = f"v_{path}"
+        taken.add(path)
+        found[name] = path
+    return found
+
+
+class Definitions(dict[str, Any]):
+    """Names with their values, and texts that are read when they are asked for, so that their order is free."""
+
+    def __init__(self, known: Mapping[str, Any], texts: Mapping[str, Any]) -> None:
+        super().__init__(known)
+        self._waiting = dict(texts)
+
+    def __contains__(self, name: object) -> bool:
+        return super().__contains__(name) or name in self._waiting
+
+    def __missing__(self, name: str) -> Any:
+        if name not in self._waiting:
+            raise KeyError(name)
+        self[name] = value_of(self._waiting.pop(name), self)
+        return self[name]
