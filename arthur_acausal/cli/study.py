@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -24,9 +25,26 @@ def studies() -> None:
 @reported
 def valves(
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Where the files go.")],
+    designs: Annotated[
+        int, typer.Option("--designs", metavar="N", min=0, help="Rotary valves to draw and try; 0: none.")
+    ] = 0,
     debug: Debug = False,
 ) -> None:
     """Compare the rotary with the spool valve: sections 3 and 4 of the report."""
     from arthur_acausal.models.arthur.valve_study import write_study
 
-    typer.echo(write_study(output))
+    typer.echo(write_study(output, _sweeping(output, designs) if designs else None))
+
+
+def _sweeping(folder: Path, samples: int) -> Callable[[str, Mapping[str, Any]], Any]:
+    """Return what carries out the study's sweeps, each in a folder of its own that a second call goes on with."""
+    from arthur_acausal.sweep import sweep
+
+    model = "arthur_acausal.models.arthur.valves.strokes:RotaryStroke"
+
+    def carry_out(name: str, specification: Mapping[str, Any]) -> Any:
+        target = folder / f"{name}-{samples}"
+        found = sweep(model, stop_time=1.0, samples=samples, folder=target, resume=True, **specification)
+        return found.table
+
+    return carry_out

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
@@ -14,8 +14,16 @@ from numpy.typing import NDArray
 
 from arthur_acausal import Solution
 from arthur_acausal.components.hydraulic.servo_valves import Shape
+from arthur_acausal.models.arthur.valves.actuation import settled_errors
+from arthur_acausal.models.arthur.valves.consequences import (
+    loop_runs,
+    of_the_robot,
+    testbed_numbers,
+    testbed_runs,
+)
+from arthur_acausal.models.arthur.valves.design import DESIGNS, design_numbers, printed_again, printed_numbers
 from arthur_acausal.models.arthur.valves.findings import findings
-from arthur_acausal.models.arthur.valves.pictures import deviation, figures
+from arthur_acausal.models.arthur.valves.pictures import deviation, figures, loop_figure, testbed_figure
 from arthur_acausal.models.arthur.valves.strokes import GPM
 from arthur_acausal.models.arthur.valves.variants import ROTARY, SPOOL, rotary_numbers, spool_numbers
 
@@ -42,30 +50,60 @@ SPOOL_COLUMNS = {
 }
 
 
-def write_study(folder: Path) -> str:
-    """Write rotary.csv, spool.csv, summary.json, findings.md and the figures; return what was found, in short."""
+Table = Mapping[str, Sequence[Any]]
+Sweeping = Callable[[str, Mapping[str, Any]], Table]
+
+
+def write_study(folder: Path, sweep: Sweeping | None = None) -> str:
+    """Write rotary.csv, spool.csv, summary.json, findings.md and the figures; return what was found, in short.
+
+    ``sweep``: carries out a sweep of `RotaryStroke`, given a name and what `arthur_acausal.sweep.sweep` takes, and
+    returns its table by columns; without it no designs are tried.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     rotary_runs = {variant.name: variant.run() for variant in ROTARY}
     spool_runs = {variant.name: variant.run() for variant in SPOOL}
+    bed, loops = testbed_runs(), loop_runs()
     says = (
         {variant.name: variant.says for variant in ROTARY},
         {variant.name: variant.says for variant in SPOOL},
     )
-    rotary = {name: {"says": says[0][name], **rotary_numbers(run)} for name, run in rotary_runs.items()}
-    spool = {name: {"says": says[1][name], **spool_numbers(run)} for name, run in spool_runs.items()}
-    shapes = {shape: deviation(shape) for shape in get_args(Shape)}
+    rotary: dict[str, Any] = {
+        name: {"says": says[0][name], **rotary_numbers(run)} for name, run in rotary_runs.items()
+    }
+    spool: dict[str, Any] = {
+        name: {"says": says[1][name], **spool_numbers(run)} for name, run in spool_runs.items()
+    }
+    summary: dict[str, Any] = {
+        "rotary": rotary,
+        "spool": spool,
+        "deviation_from_linear": {shape: deviation(shape) for shape in get_args(Shape)},
+        "testbed": {name: testbed_numbers(run) for name, run in bed.items()},
+        "actuation": {name: settled_errors(run) for name, run in loops.items()},
+        "robot": of_the_robot(rotary_runs["default"], spool_runs["default"]),
+    }
+    if sweep is not None:
+        summary["designs"] = _designs(sweep, spool["two thirds at the load"]["W_to_0.5_gpm_uJ"] * 1e-6)
     _write_table(folder / "rotary.csv", rotary_runs["default"], ROTARY_COLUMNS)
     _write_table(folder / "spool.csv", spool_runs["default"], SPOOL_COLUMNS)
-    summary = {"rotary": rotary, "spool": spool, "deviation_from_linear": shapes}
     (folder / "summary.json").write_text(json.dumps(_finite(summary), indent=2) + "\n", encoding="utf-8")
-    (folder / "findings.md").write_text(findings(rotary, spool, shapes), encoding="utf-8")
-    for name, figure in figures(rotary_runs["default"], spool_runs["default"]).items():
+    (folder / "findings.md").write_text(findings(summary), encoding="utf-8")
+    drawn = figures(rotary_runs["default"], spool_runs["default"])
+    drawn |= {"testbed": testbed_figure(bed), "figure-4-14": loop_figure(loops)}
+    for name, figure in drawn.items():
         figure.savefig(folder / f"{name}.png", dpi=150)
     r, s = rotary["default"], spool["default"]
     return (
         f"work to open fully: rotary {r['W_no_jet_uJ']:.0f} uJ without the jets' torque, {r['W_with_jet_uJ']:.0f} uJ "
         f"with it; spool {s['W_uJ']:.0f} uJ\nwrote {len(list(folder.iterdir()))} files to {folder}"
     )
+
+
+def _designs(sweep: Sweeping, spool: float) -> dict[str, Any]:
+    """Return what designs need less work [J] than the spool valve, and how the best one bears the printing."""
+    found = design_numbers(sweep("designs", DESIGNS), spool)
+    again = sweep("printed", printed_again(found["best"]))
+    return found | {"best_printed_again": printed_numbers(again["to_flow.W_with_jet"], spool)}
 
 
 def table(run: Solution, columns: Mapping[str, tuple[str, float]]) -> dict[str, NDArray[np.float64]]:

@@ -10,7 +10,11 @@ import numpy as np
 import pytest
 
 from arthur_acausal.models.arthur.valve_study import ROTARY_COLUMNS, SPOOL_COLUMNS, write_study
+from arthur_acausal.models.arthur.valves.design import DESIGNS, design_numbers, printed_again, to_flow
 from arthur_acausal.models.arthur.valves.pictures import deviation
+from arthur_acausal.models.arthur.valves.strokes import GPM, RotaryStroke
+from arthur_acausal.models.arthur.valves.variants import ROTARY, rotary_numbers
+from arthur_acausal.sweep import sweep
 
 
 @pytest.fixture(scope="module")
@@ -72,8 +76,58 @@ def test_the_claim_holds_only_without_the_jets(folder: Path) -> None:
     assert f"{rotary['W_with_jet_uJ']:.0f} uJ" in text
 
 
+def test_the_robot_by_hand(folder: Path) -> None:
+    """0.96 gpm at 3000 psi; a pump of 1.05 cc a turn is what the report's motor can hold."""
+    robot = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["robot"]
+    assert robot["pilot_flow_gpm"] == pytest.approx(12 * 0.08)
+    assert robot["pilot_flow_2000_psi_gpm"] == pytest.approx(12 * 0.08 * (2 / 3) ** 0.5)
+    gpm, psi = 231 * 0.0254**3 / 60, 6894.757
+    hydraulic = 0.96 * gpm * 3000 * psi
+    assert robot["pilot_hydraulic_W"] == pytest.approx(hydraulic, rel=1e-4)
+    larger = robot["pump_with_pilots"]
+    assert larger["displacement_cc"] == pytest.approx(1.96 * gpm / (0.85 * 5000 / 60) * 1e6, rel=1e-4)
+    assert larger["displacement_cc"] > 1.05
+    assert larger["torque_Nm"] > 3.9
+    without = 2700.0 - hydraulic / (0.85 * 0.8)
+    for valve in ("rotary", "spool"):
+        numbers = robot[valve]
+        power = without * (1 + 12 * 0.095 / 10) + numbers["moving_W"] + numbers["holding_W"]
+        assert numbers["minutes"] == pytest.approx(2 * 180 * 60 / power, rel=1e-4)
+        assert numbers["minutes_with_leakage"] < numbers["minutes"]
+
+
+def test_the_testbed_and_the_loop(folder: Path) -> None:
+    """Friction by hand; a cogging motor rests about half a cog off, 2.1 deg."""
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    bed, errors = summary["testbed"], summary["actuation"]
+    assert bed["antagonistic"]["T_jet_max_mNm"] < bed["double"]["T_jet_max_mNm"]
+    assert bed["antagonistic"]["Q_max_gpm"] < bed["double"]["Q_max_gpm"]
+    friction = 0.05 * 3 * 3.81e-3 * 1.5 * (3 * 0.762e-3) ** 2 * 485.5 * 6894.757 * 1e3
+    assert bed["double"]["T_friction_max_mNm"] == pytest.approx(friction, rel=1e-2)
+    assert 1.0 < max(abs(error) for error in errors["brushless"]) < 3.0
+    assert max(abs(error) for error in errors["ultrasonic"]) < 1e-3
+
+
+def test_designs_are_tried_and_printed_again() -> None:
+    """The reduction of a default run is what the study interpolates; the best of two designs is the smaller one."""
+    run = ROTARY[0].run()
+    (work, s) = (to_flow(run)[name] for name in ("W_with_jet", "s"))
+    assert work * 1e6 == pytest.approx(rotary_numbers(run)["W_with_jet_to_0.5_gpm_uJ"], rel=1e-9)
+    assert np.interp(s, run["s"], run["Q_A"]) == pytest.approx(0.5 * GPM, rel=1e-6)
+    table = sweep(RotaryStroke, stop_time=1.0, samples=4, workers=1, progress=False, **DESIGNS).table
+    assert set(table["status"]) == {"ok"}
+    numbers = design_numbers(table, 1.0)
+    assert numbers["win_with_jets"] == numbers["reach_the_flow"]
+    assert numbers["best_uJ"] == pytest.approx(table["to_flow.W_with_jet"].min() * 1e6)
+    again = sweep(
+        RotaryStroke, stop_time=1.0, samples=2, workers=1, progress=False, **printed_again(numbers["best"])
+    ).table
+    assert set(again["status"]) == {"ok"}
+    assert again["phi_error"].nunique() == 2
+
+
 def test_figures_are_pictures(folder: Path) -> None:
-    names = ("3-5", "3-8", "3-9", "3-13", "3-14", "3-15", "4-11")
+    names = ("3-5", "3-8", "3-9", "3-13", "3-14", "3-15", "4-11", "4-14")
     for name in names:
         assert (folder / f"figure-{name}.png").read_bytes().startswith(b"\x89PNG")
 

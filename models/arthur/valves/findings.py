@@ -6,27 +6,35 @@ from collections.abc import Mapping
 from math import isnan
 from typing import Any
 
+from arthur_acausal.models.arthur.valves.further_findings import (
+    actuation_text,
+    designs_text,
+    robot_text,
+    testbed_text,
+)
+
 Numbers = Mapping[str, Mapping[str, Any]]
 
 
-def findings(rotary: Numbers, spool: Numbers, shapes: Mapping[str, float]) -> str:
-    """Return the findings as Markdown, from the variants' numbers and the shapes' deviations from linear."""
+def findings(summary: Mapping[str, Any]) -> str:
+    """Return the findings as Markdown, from what summary.json holds."""
+    rotary, spool = summary["rotary"], summary["spool"]
     r, s = rotary["default"], spool["default"]
-    return (
-        "\n\n".join(
-            [
-                "# Rotary against spool: what the numbers say",
-                _claim(r, s),
-                _fair(r, s, spool["two thirds at the load"]),
-                _pressure(rotary, s),
-                _open_points(rotary, spool),
-                _shapes(shapes),
-                _table("Rotary valve", rotary),
-                _table("Spool valve", spool),
-            ]
-        )
-        + "\n"
-    )
+    parts = [
+        "# Rotary against spool: what the numbers say",
+        _claim(r, s),
+        _fair(r, s, spool["two thirds at the load"]),
+        _pressure(rotary, s),
+        designs_text(summary.get("designs")),
+        _open_points(rotary, spool),
+        testbed_text(summary["testbed"]),
+        actuation_text(summary["actuation"]),
+        robot_text(summary["robot"]),
+        _shapes(summary["deviation_from_linear"]),
+        _table("Rotary valve", rotary),
+        _table("Spool valve", spool),
+    ]
+    return "\n\n".join(part for part in parts if part) + "\n"
 
 
 def _claim(r: Mapping[str, float], s: Mapping[str, float]) -> str:
@@ -58,9 +66,14 @@ def _fair(r: Mapping[str, float], s: Mapping[str, float], loaded: Mapping[str, f
         f"{r['W_with_jet_to_0.5_gpm_uJ']:.0f} uJ with jets, {r['W_no_jet_to_0.5_gpm_uJ']:.0f} uJ without; the spool "
         f"valve opens by {s['s_at_0.5_gpm']:.0%} and needs {s['W_to_0.5_gpm_uJ']:.0f} uJ, or, where its load takes two "
         f"thirds of the pressure as the rotary valve's does, by {loaded['s_at_0.5_gpm']:.0%} and "
-        f"{loaded['W_to_0.5_gpm_uJ']:.0f} uJ. So at equal flow the report's claim fails even without the jets where "
-        "the first of these numbers is the larger one."
+        f"{loaded['W_to_0.5_gpm_uJ']:.0f} uJ. " + _equal_flow(r, loaded)
     )
+
+
+def _equal_flow(r: Mapping[str, float], loaded: Mapping[str, float]) -> str:
+    if r["W_no_jet_to_0.5_gpm_uJ"] < loaded["W_to_0.5_gpm_uJ"]:
+        return "So at equal flow, too, the rotary valve needs less as long as its jets are left out."
+    return "So at equal flow the rotary valve needs more work even without its jets."
 
 
 def _pressure(rotary: Numbers, s: Mapping[str, float]) -> str:
@@ -70,7 +83,8 @@ def _pressure(rotary: Numbers, s: Mapping[str, float]) -> str:
     ]
     winners = [name for name, numbers in rotary.items() if numbers["W_with_jet_uJ"] < s["W_uJ"]]
     verdict = (
-        f"With its jets counted the rotary valve wins, to full opening, in these variants: {', '.join(winners)}."
+        f"With its jets counted the rotary valve wins, to full opening, in these variants: {', '.join(winners)}. "
+        "Full opening is not the same flow: see the table."
         if winners
         else "In none of these variants does the rotary valve win with its jets counted."
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -107,6 +107,31 @@ def jet_angles() -> Figure:
     for limit in limits:
         axes.axhline(limit, color="0.6", linewidth=0.8, zorder=0.5)
     return figure
+
+
+def testbed_figure(runs: Mapping[str, Solution]) -> Figure:
+    """The jets' torque over the position with the three spools of section 4.2."""
+    return drawn(
+        [
+            (f"{name} orifice" if name != "antagonistic" else name, run["z"], run["T_jet"] * 1e3)
+            for name, run in runs.items()
+        ],
+        "jets' torque, against forward motion [mN m]",
+        "Testbed, 500 psi: antagonistic ports lower the torque of two orifices, and the flow",
+        "position of the spool over the port's width, 0: aligned [1]",
+    )
+
+
+def loop_figure(runs: Mapping[str, Solution]) -> Figure:
+    """Figure 4-14: set and actual position over time, with both motors."""
+    first = next(iter(runs.values()))
+    curves = [(name, run.t * 1e3, np.degrees(run["drive.phi"])) for name, run in runs.items()]
+    return drawn(
+        [("set", first.t * 1e3, np.degrees(first["drive.wanted"])), *curves],
+        "position of the spool [deg]",
+        "A cogging motor rests up to 2.5° off; one without steps arrives",
+        "time [ms]",
+    )
 
 
 def shapes(names: Sequence[Shape]) -> Figure:

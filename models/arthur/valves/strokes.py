@@ -55,6 +55,7 @@ class RotaryStroke(RotaryBody):
     u_1: Real = variable("m/s", start=100.0, nominal=100.0, description="speed in the inlets, Q_A/A_1")
     u_2: Real = variable("m/s", start=100.0, nominal=100.0, description="speed in the outlets")
     Q_A: Real = variable("m^3/s", nominal=1e-5, display="L/min")
+    Q_leak: Real = variable("m^3/s", nominal=1e-6, display="L/min", description="from P to R in the middle")
     T_friction: Real = variable("N*m", nominal=1e-3)
     T_viscous: Real = variable("N*m", nominal=1e-3)
     T_inertia: Real = variable("N*m", nominal=1e-3)
@@ -99,6 +100,7 @@ class RotaryStroke(RotaryBody):
         dp_AB = dp_SR - (1 + g**2) * orifices
         dtheta = self.overlap() + self.s * self.d_p / self.r_c
         alpha, w = 4 * dtheta / self.t_res**2, 2 * dtheta / self.t_res
+        yield "leakage in the middle", self.Q_leak == self.land_leakage(SX(0)) * dp_SR
         yield "friction", self.T_friction == self.friction_torque(self.radial_force(A_1, A_2, dp_SR, dp_AB))
         yield "film", self.T_viscous == self.viscous_torque(alpha, w)
         yield "inertia", self.T_inertia == self.inertia() * alpha
@@ -141,6 +143,7 @@ class SpoolStroke(SpoolBody):
     phi_jet: Real = variable("rad", start=0.5, description="jet angle")
     u: Real = variable("m/s", start=100.0, nominal=100.0, description="Q_S/A_o")
     Q_S: Real = variable("m^3/s", nominal=1e-5, display="L/min")
+    Q_leak: Real = variable("m^3/s", nominal=1e-6, display="L/min", description="from P to R in the middle")
     p_needed: Real = variable("Pa", nominal=1e7, display="bar", description="of both orifices")
     F_steady: Real = variable("N", description="3.48")
     F_friction: Real = variable("N", description="3.59, first term")
@@ -184,6 +187,7 @@ class SpoolStroke(SpoolBody):
         leaks = (leak * (p_1 - self.p_R) + dragged) ** 2 + (-leak * (self.p_S - p_2) + dragged) ** 2
         jets = (1 + g**2) * jet_force(rho, A, self.u, self.phi_jet, self.C_c)
         yield "steady force", self.F_steady == jets + rho / self.leak_area() * leaks
+        yield "leakage in the middle", self.Q_leak == self.land_leakage(SX(0)) * (self.p_S - self.p_R)
         yield "film", self.F_friction == self.drag(2 * stroke / self.t_res)
         yield "leakage's shear", self.F_shear == self.land_shear((p_1 - self.p_R) - (self.p_S - p_2))
         yield "inertia", self.F_inertia == self.mass() * 4 * stroke / self.t_res**2
