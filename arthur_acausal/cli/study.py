@@ -45,6 +45,6 @@ def _sweeping(folder: Path, samples: int) -> Callable[[str, Mapping[str, Any]], 
     def carry_out(name: str, specification: Mapping[str, Any]) -> Any:
         target = folder / f"{name}-{samples}"
         found = sweep(model, stop_time=1.0, samples=samples, folder=target, resume=True, **specification)
-        return found.table
+        return found.table.to_dict("list")
 
     return carry_out

@@ -114,16 +114,18 @@ def test_designs_are_tried_and_printed_again() -> None:
     (work, s) = (to_flow(run)[name] for name in ("W_with_jet", "s"))
     assert work * 1e6 == pytest.approx(rotary_numbers(run)["W_with_jet_to_0.5_gpm_uJ"], rel=1e-9)
     assert np.interp(s, run["s"], run["Q_A"]) == pytest.approx(0.5 * GPM, rel=1e-6)
-    table = sweep(RotaryStroke, stop_time=1.0, samples=4, workers=1, progress=False, **DESIGNS).table
+    table = sweep(RotaryStroke, stop_time=1.0, samples=4, workers=1, progress=False, **DESIGNS).table.to_dict(
+        "list"
+    )
     assert set(table["status"]) == {"ok"}
     numbers = design_numbers(table, 1.0)
     assert numbers["win_with_jets"] == numbers["reach_the_flow"]
-    assert numbers["best_uJ"] == pytest.approx(table["to_flow.W_with_jet"].min() * 1e6)
+    assert numbers["best_uJ"] == pytest.approx(min(table["to_flow.W_with_jet"]) * 1e6)
     again = sweep(
         RotaryStroke, stop_time=1.0, samples=2, workers=1, progress=False, **printed_again(numbers["best"])
-    ).table
+    ).table.to_dict("list")
     assert set(again["status"]) == {"ok"}
-    assert again["phi_error"].nunique() == 2
+    assert len(set(again["phi_error"])) == 2
 
 
 def test_figures_are_pictures(folder: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from casadi import SX, Function
 from scipy.integrate import cumulative_trapezoid
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 from arthur_acausal import (
     Component,
@@ -99,7 +99,7 @@ def angle(ratio: float) -> float:
         left, right = von_mises(SX(phi), SX(ratio))
         return float(left - right)
 
-    return degrees(brentq(rest, radians(21.0), radians(69.0)))
+    return degrees(root_scalar(rest, bracket=(radians(21.0), radians(69.0)), xtol=1e-14).root)
 
 
 def test_jet_angles() -> None:
