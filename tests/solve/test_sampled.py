@@ -312,3 +312,32 @@ def test_events_that_accumulate_stop_the_run_unless_told_otherwise() -> None:
     passed = model.simulate(2.0, options=SolverOptions(zeno_interval=0.0, chattering_window=0.0))
     assert passed.final("x") == pytest.approx(2.0, rel=1e-9)
     assert passed.final("n") >= 38.0  # the rest is nearer than time resolves
+
+
+class Lagging(Component):
+    """T x' = u - x behind a set point that is held to first order: u is a polygon, bent at each sample."""
+
+    T: Real = parameter("s", default=0.05)
+    x: Real = variable("1", start=0.0, fixed=True)
+    u: Real = variable("1")
+
+    def equations(self) -> Equations:
+        yield self.T * der(self.x) == self.u - self.x
+        yield sampled(lambda t, v: np.sin(10.0 * t), period=0.01, outputs=[self.u], hold="first")
+
+
+def test_a_bent_signal_is_integrated_on_without_a_restart() -> None:
+    solution = translate(Lagging()).simulate(1.0, options=SolverOptions(rtol=1e-8, output_interval=0.01))
+    assert solution.statistics.restarts <= 2
+    x, before, asked = 0.0, 0.0, 0.0
+    decay = np.exp(-0.01 / 0.05)
+    for k in range(100):  # over each period u is a straight line, from what was reached to what is asked now
+        before, asked = asked, np.sin(10.0 * 0.01 * k)
+        slope = (asked - before) / 0.01
+        steady = before - slope * 0.05  # x follows before + slope t, T slope behind
+        x = steady + slope * 0.01 + (x - steady) * decay
+        assert solution.at((k + 1) * 0.01, "x") == pytest.approx(x, abs=3e-7)
+
+
+def test_a_signal_that_jumps_restarts() -> None:
+    assert translate(Loop()).simulate(0.5).statistics.restarts >= 49
