@@ -150,7 +150,7 @@ def powertrain(quick: bool) -> dict[str, Any]:
             ends.append(time.perf_counter())
 
         with tempfile.TemporaryDirectory() as folder:
-            found = sweep(
+            found: Any = sweep(
                 "arthur.demo",
                 vary=POWERTRAIN,
                 stop_time=1.0,
@@ -181,7 +181,7 @@ def quadruped(quick: bool) -> dict[str, Any]:
     runs = 2 if quick else 16
     with tempfile.TemporaryDirectory() as folder:
         begin = time.perf_counter()
-        found = sweep(
+        found: Any = sweep(
             "arthur.quadruped",
             vary={"relief.p_c": f"120bar:150bar:{runs}"},
             stop_time=2.0,

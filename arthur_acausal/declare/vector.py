@@ -96,7 +96,8 @@ def _part(value: Any, k: int, size: int, name: str) -> Any:
             f"{name} has {size} elements, but {count} values are given",
             remedy="give one value for all elements, or one for each",
         )
-    part = value[k]
+    elements: Any = value
+    part = elements[k]
     return part.item() if isinstance(part, np.generic) else part
 
 

@@ -8,6 +8,7 @@ states that keep their start values, those are taken that the equations leave mo
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -168,7 +169,8 @@ def _freest(
         return []
     weight = np.where(attributes.start_given[candidates], 1.0, GUESSED)
     rows = null[[unknown.index(j) for j in candidates]] * weight[:, None]
-    _, triangle, order = qr(rows.T, mode="economic", pivoting=True)
+    decomposed: Any = qr(rows.T, mode="economic", pivoting=True)  # its annotation is a union of all modes
+    _, triangle, order = decomposed
     if abs(triangle[count - 1, count - 1]) < GUESSED**2:
         return []
     return [candidates[k] for k in order[:count].tolist()]

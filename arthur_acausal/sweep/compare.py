@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -45,13 +46,13 @@ def compare(a: Sweep, b: Sweep) -> Comparison:
     """
     factors = [name for name in a.factors if name in b.factors]
     key = factors if factors and a.factors == b.factors else ["run"]
-    both = a.table.merge(b.table, on=key, how="outer", suffixes=("_a", "_b"), indicator=True)
+    both: Any = a.table.merge(b.table, on=key, how="outer", suffixes=("_a", "_b"), indicator=True)
     found = both[both["_merge"] == "both"]
     if not len(found):
         raise UsageError(f"{a.folder} and {b.folder} have no run in common")
     number = "run" if key == ["run"] else "run_a"
     status = found.loc[found["status_a"] != found["status_b"], number].astype(int).tolist()
-    good = found[(found["status_a"] == found["status_b"]) & found["status_a"].isin(["ok", "terminated"])]
+    good: Any = found[(found["status_a"] == found["status_b"]) & found["status_a"].isin(["ok", "terminated"])]
     results = []
     for name in (n for n in a.reductions if n in b.reductions):
         before, after = good[f"{name}_a"].to_numpy(float), good[f"{name}_b"].to_numpy(float)

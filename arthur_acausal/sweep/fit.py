@@ -65,7 +65,9 @@ def fit(plan: Plan, measured: Path, match: Mapping[str, str], folder: Path, how:
     Trust region reflective (Branch, Coleman and Li, 1999), from the middle of the ranges; forward differences, whose
     runs go to the workers together. Standard errors by the linearised model at the optimum.
     """
-    from scipy.optimize import least_squares
+    import scipy.optimize
+
+    least_squares: Any = scipy.optimize.least_squares  # whose annotation knows a Jacobian by its name only
 
     times, columns = _read(measured, match, plan.specification.stop_time)
     output = plan.specification.output.model_copy(

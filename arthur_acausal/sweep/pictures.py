@@ -41,7 +41,7 @@ def picture(
     with style():
         if kind == "fan":
             return _fan(sweep, y)
-        frame = sweep.table[sweep.table["status"].isin(["ok", "terminated"])]
+        frame: Any = sweep.table[sweep.table["status"].isin(["ok", "terminated"])]
         numeric = [n for n in frame.columns if frame[n].dtype.kind in "fi"]
         factors = [n for n in sweep.factors if n in numeric and frame[n].nunique() > 1]
         y = _choose(y, [n for n in sweep.reductions if n in numeric] or numeric, numeric, "y")

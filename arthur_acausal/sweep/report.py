@@ -53,7 +53,7 @@ def page(sweep: Sweep) -> str:
 
 def content(sweep: Sweep) -> dict[str, Any]:
     """Return what the page shows, as JSON values; None stands for what is no number."""
-    frame = sweep.table
+    frame: Any = sweep.table
     columns = {name: _column(frame[name]) for name in frame.columns}
     numeric = [
         name

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -75,11 +76,12 @@ class StateSets:
 
 def pivots(matrix: FloatArray) -> tuple[list[int], FloatArray]:
     """Return the columns in the order of QR with column pivoting, and the size of R's diagonal."""
-    from scipy.linalg.lapack import dgeqp3
+    import scipy.linalg.lapack
 
     count = min(matrix.shape)
     if not count:
         return list(range(matrix.shape[1])), np.zeros(0)
+    dgeqp3: Any = getattr(scipy.linalg.lapack, "dgeqp3")  # noqa: B009 - made at run time
     factors, order = dgeqp3(matrix)[:2]
     return (order - 1).tolist(), np.abs(np.diagonal(factors))[:count]
 

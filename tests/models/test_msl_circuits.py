@@ -45,7 +45,7 @@ def transformer(t: float, x: Floats) -> Floats:
     leak = 0.05 / (20 * np.pi)
     L = np.array([[leak + 200 * leak, 100 * leak], [100 * leak, leak / 4 + 50 * leak]])
     v = np.array([0.1 + 0.1 * np.sin(20 * np.pi * t + np.pi / 2), 0.0])
-    return np.asarray(np.linalg.solve(L, v - np.array([0.01, 0.2525]) * x))
+    return np.asarray(np.linalg.solve(L, v - np.array([0.01, 0.2525]) * x), dtype=np.float64)
 
 
 REFERENCES: dict[str, tuple[Callable[[float, Floats], object], list[float], list[str], float]] = {
