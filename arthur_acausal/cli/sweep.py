@@ -241,7 +241,7 @@ def as_text(tally: Tally, folder: Path) -> str:
 class Watch:
     """Shows how far a sweep is: a live bar on a terminal, else a line now and then, on standard error."""
 
-    INTERVAL = 10.0  # s between lines
+    INTERVAL = 60.0  # s between lines
 
     def __init__(self, plan: Plan, folder: Path) -> None:
         self._last = 0.0

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from arthur_acausal.errors import ArthurError, UsageError, nearest
 from arthur_acausal.request.settings import read_settings
 
+FOLDERS: set[str] = set()  # that models' files were loaded from, and that stand in sys.path for it
 FORMS = "MODEL is a short name (`arthur list` shows them), package.module:Class or file.py:Class"
 
 
@@ -89,6 +90,7 @@ def load_file(path: Path) -> ModuleType:
     if not path.is_file():
         raise UsageError(f"there is no file {path}", remedy=FORMS)
     folder = str(path.resolve().parent)
+    FOLDERS.add(folder)
     if folder not in sys.path:
         sys.path.insert(0, folder)
     name = f"_file_{path.stem}"  # a file may be called like a library

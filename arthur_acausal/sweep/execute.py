@@ -134,7 +134,7 @@ def system_of(job: Job) -> CompiledDAE:
     if job.digest not in _LOADED:
         for folder in job.folders:
             if folder not in sys.path:
-                sys.path.insert(0, folder)
+                sys.path.append(folder)
         while len(_LOADED) >= KEPT_SYSTEMS:
             del _LOADED[next(iter(_LOADED))]
         _LOADED[job.digest] = from_bytes(job.system, trusted=job.trusted)

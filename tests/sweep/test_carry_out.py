@@ -320,3 +320,12 @@ def test_a_place_that_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / "mine" / "thesis.tex").write_text("")
     with pytest.raises(UsageError, match="is not empty"):
         swept(tmp_path / "mine", vary={"tau": "1,2"})
+
+
+def test_a_file_beside_the_model_that_is_called_like_a_library_hides_nothing(tmp_path: Path) -> None:
+    (tmp_path / "json.py").write_text("")
+    text = (Path(__file__).parent / "models.py").read_text()
+    (tmp_path / "decay.py").write_text(text)
+    given = {"model": f"{tmp_path / 'decay.py'}:Decay", "stop_time": 1.0, "vary": {"tau": "1,2"}}
+    tally = carry_out(Plan(from_mapping(given), tmp_path, find_model), tmp_path / "d", How(workers=1))
+    assert (tally.ok, tally.failed) == (2, 0)
