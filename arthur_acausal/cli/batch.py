@@ -301,7 +301,7 @@ def optimize(
     as_json: Json = False,
     debug: Debug = False,
 ) -> None:
-    """Find the parameters for which a reduction is least or greatest."""
+    """Find the parameters of the least or greatest reduction."""
     from arthur_acausal.cli.searching import optimize as carry_out
     from arthur_acausal.cli.sweep import Request
 
