@@ -130,12 +130,16 @@ def _culprits(
     for part in parts_of(component):
         meeting = [column[n] for n in inside[id(part)]]
         rows += [meeting] * (count([*connectors_of(part)]).potential + count([part]).outputs)
-    rows += [[column[n] for n in row] for row in connections]
-    own = len(rows)
     within = {n: inside[id(part)] for part in parts_of(component) for n in _all_numbers(part)}
+
+    def columns_of(found: list[int]) -> list[int]:
+        """Return the columns of variables; for what lies deeper within a part stands where that part is met."""
+        return sorted({column[m] for n in found for m in ([n] if n in column else within.get(n, []))})
+
+    rows += [columns_of(row) for row in connections]
+    own = len(rows)
     for equation in block.equations:
-        found = [a.number for a in equation.atoms if a.kind in ("variable", "der")]
-        rows.append(sorted({column[m] for n in found for m in ([n] if n in column else within.get(n, []))}))
+        rows.append(columns_of([a.number for a in equation.atoms if a.kind in ("variable", "der")]))
     assigned = matching(rows, len(numbers), matching(rows[:own], len(numbers)))  # what is given comes first
     over = [e for e, v in zip(block.equations, assigned[own:], strict=True) if v < 0]
     groups = _underdetermined(rows, len(numbers), assigned)

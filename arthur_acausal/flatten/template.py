@@ -87,9 +87,9 @@ def _copy(model: Model, scope: Scope, base: dict[str, int]) -> Model:
         child._binding.owner = copy
     for name, value in model.__dict__.items():
         if isinstance(value, Model):
-            copy.__dict__[name] = copies[id(value)]
+            copy.__dict__[name] = copies.get(id(value), value)  # what is not its part stays what it is
         elif isinstance(value, list) and value and isinstance(value[0], Model):
-            copy.__dict__[name] = [copies[id(item)] for item in value]
+            copy.__dict__[name] = [copies.get(id(item), item) for item in value]
         else:
             copy.__dict__[name] = value
     copy.__dict__["_binding"] = binding

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from arthur_acausal import (
+    ArthurError,
     Component,
     Equations,
     Real,
@@ -229,3 +230,47 @@ def test_an_equation_that_is_surplus_does_not_hide_what_is_missing() -> None:
     message = refusal(Overfull()).message
     assert "4 equations for 3 unknowns; surplus: x == 2" in message
     assert message.endswith("; not determined: z")
+
+
+class Inner(Component):
+    """Balanced parts within a list."""
+
+    def build(self) -> None:
+        self.parts = [Balanced(), Balanced()]
+
+    def equations(self) -> Equations:
+        yield connect(self.parts[0].y, self.parts[1].u)
+
+
+def test_a_connection_to_what_lies_deeper_is_counted_where_its_part_is_met() -> None:
+    class Outer(Component):
+        y: Real = real_output("V")
+        one: Real = parameter("V", default=1.0)
+
+        def build(self) -> None:
+            self.inner = [Inner()]
+
+        def equations(self) -> Equations:
+            yield connect(self.inner[0].parts[1].y, self.y)
+            yield "twice", self.y == self.one
+
+    assert 'surplus: "twice"' in refusal(Outer()).message
+
+
+def test_a_list_of_another_components_connectors_is_refused_by_name() -> None:
+    class Borrower(Component):
+        pins: list[Pin] = []
+
+        def equations(self) -> Equations:
+            yield self.pins[0].v == self.pins[1].v
+
+    class Lender(Component):
+        def build(self) -> None:
+            self.pins = [Pin(), Pin()]
+            self.borrower = Borrower(pins=self.pins)
+
+        def equations(self) -> Equations:
+            yield connect(self.pins[0], self.pins[1])
+
+    with pytest.raises(ArthurError, match=r"pins\[0\].v belongs to no component"):
+        flatten(Lender())
