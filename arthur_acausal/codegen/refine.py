@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from arthur_acausal.codegen.calls import Completion
 from arthur_acausal.codegen.compiled import CompiledDAE
+from arthur_acausal.codegen.threads import one_thread
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
@@ -49,6 +50,7 @@ class Rows:
         return [self.t.reshape(1, -1), self.y.T, self.yp.T, p, self.u.T, self.z.T, self.m.T]
 
 
+@one_thread()
 def refine(dae: CompiledDAE, rows: Rows) -> tuple[FloatArray, FloatArray]:
     """Return (y, y') with the algebraic entries of y and the derivatives of states solved anew from the states.
 

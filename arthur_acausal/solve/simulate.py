@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from arthur_acausal.codegen.threads import one_thread
 from arthur_acausal.errors import ArthurError, UsageError
 from arthur_acausal.solve.callbacks import Progress
 from arthur_acausal.solve.failure import SolverFailure, SolverInterrupted
@@ -17,6 +18,7 @@ from arthur_acausal.solve.protocol import DAE, FloatArray
 from arthur_acausal.solve.trajectory import Trajectory
 
 
+@one_thread()
 def simulate(
     dae: DAE,
     *,
