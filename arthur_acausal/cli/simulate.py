@@ -167,6 +167,12 @@ def figures(model: object, solution: Solution) -> dict[str, Any]:
     return {} if own is None else dict(own(solution))
 
 
+def notes(model: object, solution: Solution) -> list[str]:
+    """What the model itself says about a run (`notes`): what went wrong in it."""
+    own = getattr(model, "notes", None)
+    return [] if own is None else list(own(solution))
+
+
 def first_of_each_unit(solution: Solution, paths: Sequence[str]) -> list[str]:
     """As many of the paths as fit into one picture."""
     from arthur_acausal.result.panel import MOST_LINES
@@ -184,12 +190,16 @@ def told(request: Request, translation: Translation, solution: Solution, written
     if request.as_json:
         extras: dict[str, Any] = {"translation_s": translation_s}
         extras |= figures(translation.model, solution)
+        if said := notes(translation.model, solution):
+            extras["notes"] = said
         if verified is not None:
             extras["verify"] = {"worst": verified.largest, "path": verified.path}
         if request.power:
             extras["power"] = {path: balance.energies for path, balance in outcome.balances(solution).items()}
         return json.dumps(outcome.as_object(solution, extras), ensure_ascii=False)
     sections = [outcome.as_text(solution, translation_s)]
+    if said := notes(translation.model, solution):
+        sections.append("\n".join(f"note: {line}" for line in said))
     if verified is not None:
         sections.append(outcome.verification(verified))
     if request.power:

@@ -85,6 +85,14 @@ def contact_speeds(solution: Solution) -> FloatArray:
     return result
 
 
+def headings(solution: Solution) -> FloatArray:
+    """Return the trunk's velocity ahead and to the left in a level frame of its heading [m/s], (nt, 2)."""
+    forward = rotations(solution.values([f"body.base_q_{axis}" for axis in "wxyz"]))[:, :2, 0]
+    c, s = (forward / np.linalg.norm(forward, axis=1, keepdims=True)).T
+    x, y = solution["body.base_v_x"], solution["body.base_v_y"]
+    return np.column_stack([c * x + s * y, c * y - s * x])
+
+
 def rotations(quaternions: FloatArray) -> FloatArray:
     """Return the matrices (nt, 3, 3) from the trunk to the world."""
     w, x, y, z = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import reduce
 from typing import Any, Literal
 
-from casadi import SX, cos, fabs, fmax, fmin, logic_or
+from casadi import SX, cos, fabs, fmax, fmin, logic_and, logic_or
 
 from arthur_acausal import (
     Component,
@@ -15,6 +15,7 @@ from arthur_acausal import (
     Solution,
     connect,
     discrete,
+    if_else,
     parameter,
     pre,
     real_output,
@@ -30,6 +31,7 @@ from arthur_acausal.models.arthur.hydraulics import Hydraulics
 from arthur_acausal.models.arthur.locomotion.commands import Command, Constant
 from arthur_acausal.models.arthur.locomotion.controller import Configuration
 from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
+from arthur_acausal.models.arthur.trouble import notes
 from arthur_acausal.models.arthur.walking import Walking
 from arthur_acausal.mujoco import MujocoBody
 
@@ -54,6 +56,19 @@ class SetPoint(Component):
         yield self.y == self.before + (self.value - self.before) * share
 
 
+class Push(Component):
+    """A force ``y`` = F [N] from ``begin`` [s] for ``duration`` [s]; two events."""
+
+    y: Real = real_output("N", nominal=10.0)
+    F: Real = parameter("N")
+    begin: Real = parameter("s")
+    duration: Real = parameter("s", min=0.0)
+
+    def equations(self) -> Equations:
+        t = time()
+        yield self.y == if_else(logic_and(t >= self.begin, t < self.begin + self.duration), self.F, 0)
+
+
 class Quadruped(Hydraulics):
     """A hydraulic quadruped of 10 kg: battery, pump, twelve cylinders through their linkages, rigid bodies, ground.
 
@@ -65,7 +80,8 @@ class Quadruped(Hydraulics):
     control within the actuators, which is continuous.
 
     Structural parameters: ``options``, see QuadrupedOptions; ``terrain`` and ``payload`` [kg], see quadruped_mjcf;
-    ``controller``, by default one that stands.
+    ``controller``, by default one that walks as ``gait`` and the speeds say; ``push`` [N], a force to the left at the
+    trunk's centre from ``t_push`` for ``push_duration``.
     """
 
     start_at_demand: bool = False
@@ -77,8 +93,14 @@ class Quadruped(Hydraulics):
     seed: int | None = None
     terrain: Literal["flat", "step", "slope"] = "flat"
     payload: float = 0.0
+    push: float = 0.0
     controller: Any = None
     period: Real = parameter("s", default=0.002, min=0.0, description="of the locomotion controller")
+    t_push: Real = parameter("s", default=3.0, description="beginning of the push")
+    push_duration: Real = parameter("s", default=0.1, min=0.0)
+    I_max: Real = parameter(
+        "A", default=50.0, min=0.0, description="current that the motor's drive shall give"
+    )
     p_low: Real = parameter("Pa", default=1e4, display="bar", description="below it a chamber cavitates")
     z_low: Real = parameter("m", default=0.12, description="height of the trunk below which it has fallen")
     tilt: Real = parameter("rad", default=1.0, display="deg", description="angle beyond which it has fallen")
@@ -91,6 +113,7 @@ class Quadruped(Hydraulics):
         "1", start=0.0, description="times that a valve's current reached its limit"
     )
     voltage_limited: Real = discrete("1", start=0.0, description="times that the bus voltage was the limit")
+    over_current: Real = discrete("1", start=0.0, description="times that the motor's current exceeded I_max")
 
     def build(self) -> None:
         super().build()
@@ -102,9 +125,12 @@ class Quadruped(Hydraulics):
             mjcf=quadruped_mjcf(self.terrain, self.payload),
             keyframe="stand",
             steady=True,
+            wrenches=("imu",) if self.push else (),
             base_z=robot.stand_height - SINKAGE,
             **pose,
         )
+        if self.push:
+            self.shove = Push(F=self.push, begin=self.t_push, duration=self.push_duration)
         self.set_points = [SetPoint(period=self.period) for _ in JOINT_NAMES]
         self.control = self._walking() if self.controller is None else self.controller
 
@@ -119,6 +145,8 @@ class Quadruped(Hydraulics):
         for name, actuator, set_point in zip(JOINT_NAMES, self.actuators, self.set_points, strict=True):
             yield connect(actuator.joint, getattr(self.body, name))
             yield connect(set_point.y, actuator.F_d)
+        if self.push:
+            yield connect(self.shove.y, self.body.imu_f_y)
         yield sampled(self.control, period=self.period, inputs=self.sensors(), outputs=self.asked())
         yield from self._watch()
 
@@ -133,6 +161,7 @@ class Quadruped(Hydraulics):
         yield when(asked > 0, self.valve_saturated == pre(self.valve_saturated) + 1)
         limited = unit.control.V > unit.drive.V_bus
         yield when(limited, self.voltage_limited == pre(self.voltage_limited) + 1)
+        yield when(unit.motor.I > self.I_max, self.over_current == pre(self.over_current) + 1)
         x, y = self.body.base_q_x, self.body.base_q_y
         tipped = 2 * (x**2 + y**2) > 1 - cos(self.tilt)  # 1 - the cosine of the angle to the vertical
         yield when(
@@ -150,6 +179,10 @@ class Quadruped(Hydraulics):
             "supply [bar]": {"manifold": "unit.manifold.p", "filter": "unit.filter.p_s"},
             "FL knee [bar]": {"side A": f"{knee}.p_A", "side B": f"{knee}.p_B"},
         }
+
+    def notes(self, solution: Solution) -> list[str]:
+        """Return what went wrong, a line each: see models.arthur.trouble."""
+        return notes(solution)
 
     def sensors(self) -> list[SX]:
         """Return what the controller is given.

@@ -14,6 +14,7 @@ from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimension
 from arthur_acausal.models.arthur.figures import attitude, contact_speeds
 from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
 from arthur_acausal.models.arthur.quadruped import Quadruped
+from arthur_acausal.models.arthur.trouble import counts
 
 WEIGHT = Dimensions().mass * 9.81
 QPOS = [f"base_{x}" for x in ("x", "y", "z", "q_w", "q_x", "q_y", "q_z")] + [f"{j}_phi" for j in JOINT_NAMES]
@@ -89,9 +90,16 @@ class Limp:
 
 
 def test_a_fall_ends_the_run_and_is_told() -> None:
-    model = translate(Quadruped(controller=Limp()))
-    run = model.simulate(1.0, options=SolverOptions(rtol=1e-3, intervals=10))
+    """It is pushed to the left as it falls, and lies there; what went wrong is said in words."""
+    model = translate(Quadruped(controller=Limp(), push=50.0))
+    late = {"t_push": 0.02, "push_duration": 0.05}
+    run = model.simulate(1.0, parameters=late, options=SolverOptions(rtol=1e-3, intervals=10))
     assert run.run.status == "terminated"
     assert "fell" in run.run.message
     assert model.model.figures(run)["locomotion"]["fell"]  # type: ignore[attr-defined]
     assert run.t[-1] < 0.5
+    assert np.ptp(run["body.imu_f_y"]) == pytest.approx(50.0)
+    assert run.final("body.base_y") > Dimensions().foot_radius
+    told = model.model.notes(run)  # type: ignore[attr-defined]
+    assert told[-1] == f"the robot fell at {run.t[-1]:.3g} s"
+    assert len(told) - 1 == sum(number > 0 for number in counts(run).values())
