@@ -90,7 +90,7 @@ class Powertrain(Component):
         self.relief = ReliefValve(law=choice.relief_law)
         kind = Filter if choice.filter_drop == "own flow" else SignalFilter
         self.filter = kind(p_s=start(P_START))
-        self.valves = [ServoValve(law=choice.valve_law, spool=choice.spool) for _ in range(self.n)]
+        self.valves = [self.make_valve() for _ in range(self.n)]
         self.cylinders = [self._cylinder(i) for i in range(self.n)]
         self.loads = [LoadForce() for _ in range(self.n)]
         gas_start: dict[str, Any] = {"p_g": start(P_START, fixed=True)} if choice.gas == "integrated" else {}
@@ -134,6 +134,10 @@ class Powertrain(Component):
             p_A=start(P_START, fixed=not self.balanced),
             p_B=start(P_START, fixed=not self.balanced),
         )
+
+    def make_valve(self) -> Any:
+        """Return one of the valves: any with the ports, the input ``I`` and the output ``P_loss`` of `ServoValve`."""
+        return ServoValve(law=self.choice.valve_law, spool=self.choice.spool)
 
     def equations(self) -> Equations:
         tank = self.reservoir.port
