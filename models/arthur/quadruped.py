@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import reduce
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from casadi import SX, cos, fabs, fmax, fmin, logic_and, logic_or
 
@@ -25,6 +25,7 @@ from arthur_acausal import (
     time,
     when,
 )
+from arthur_acausal.models.arthur.budget import budget
 from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimensions
 from arthur_acausal.models.arthur.figures import figures
 from arthur_acausal.models.arthur.hydraulics import Hydraulics
@@ -34,6 +35,9 @@ from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
 from arthur_acausal.models.arthur.trouble import notes
 from arthur_acausal.models.arthur.walking import Walking
 from arthur_acausal.mujoco import MujocoBody
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SINKAGE = 2e-3
 """How deep the feet are first assumed to sink in [m]: where they only touch, the ground bears nothing yet."""
@@ -126,6 +130,7 @@ class Quadruped(Hydraulics):
             keyframe="stand",
             steady=True,
             wrenches=("imu",) if self.push else (),
+            observe=("energy", "power") if self.audit else (),
             base_z=robot.stand_height - SINKAGE,
             **pose,
         )
@@ -179,6 +184,21 @@ class Quadruped(Hydraulics):
             "supply [bar]": {"manifold": "unit.manifold.p", "filter": "unit.filter.p_s"},
             "FL knee [bar]": {"side A": f"{knee}.p_A", "side B": f"{knee}.p_B"},
         }
+
+    def figure(self, solution: Solution) -> Figure:
+        """Return the picture of a run: with ``audit`` where the energy went, else how it moved and was fed."""
+        if self.audit:
+            return budget({f"{self.gait}, {solution.t[-1]:.3g} s": solution})
+        return solution.plot(
+            {
+                "trunk [m]": {"height": "body.base_z"},
+                "velocity [m/s]": {"x": "body.base_v_x", "y": "body.base_v_y"},
+                "feet [N]": {leg: f"body.sensor_{leg}_touch" for leg in LEGS},
+                **self.beside(),
+                "flow [L/min]": {"pump": "unit.pump.q", "pistons": "unit.q_command"},
+                "power [W]": {"battery": "unit.drive.P_battery"},
+            }
+        )
 
     def notes(self, solution: Solution) -> list[str]:
         """Return what went wrong, a line each: see models.arthur.trouble."""

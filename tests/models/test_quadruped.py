@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from arthur_acausal import Solution, SolverOptions, Translation, translate
+from arthur_acausal.models.arthur.budget import body_energy, budget
 from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimensions
 from arthur_acausal.models.arthur.figures import attitude, contact_speeds
 from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
@@ -70,6 +71,18 @@ def test_energy() -> None:
     assert abs(energy.closure) < 1e-4
     assert energy.losses_J["copper"] + energy.losses_J["pump_leakage"] > 0.8 * energy.input_J
     assert abs(energy.work_J) < 1e-3 * energy.input_J
+
+
+def test_the_rigid_bodies_balance() -> None:
+    """Work of the cylinders = growth of MuJoCo's energies + what contacts take, in the first steps of a trot."""
+    model = translate(Quadruped(gait="trot", v_x=0.5, audit=True))
+    run = model.simulate(0.3, options=SolverOptions(rtol=1e-3, intervals=600))
+    energy = body_energy(run)
+    assert abs(energy.closure) < 0.01
+    assert energy.contact_J > 0.01 * energy.positive_J
+    assert energy.work_J == pytest.approx(run.energy().work_J, abs=0.01 * energy.positive_J)
+    (cascade,) = budget({"trot": run}).axes
+    assert len(cascade.patches) == len(cascade.get_yticklabels()) > 8
 
 
 def test_unknowns() -> None:
