@@ -50,8 +50,11 @@ class Program:
             input=begin.y[-1, :n].tobytes() + w.tobytes() + z.tobytes(),
             capture_output=True,
             check=True,
+            cwd=self.model.parent,  # where MuJoCo leaves its log
         )
-        return np.frombuffer(done.stdout).reshape(ticks + 1, -1), float(done.stderr)
+        return np.frombuffer(done.stdout).reshape(ticks + 1, -1), float(
+            done.stderr.split()[-1]
+        )  # MuJoCo's warnings come before
 
     def run(self, method: str, h: float, *, exchange: float = PERIOD, every: int = 1, ticks: int = 0) -> Cost:
         """Integrate over the whole duration, or ``ticks`` samples."""
