@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import cos, radians, sin, sqrt, tan
-from typing import Literal, get_args
+from typing import Literal
 
 from casadi import SX, asin, fmax, fmin
 from casadi import acos as arc_cosine
@@ -69,11 +69,6 @@ def open_area(shape: Shape, s: SX) -> SX:
 def full_area(shape: Shape) -> float:
     """Return the area of the whole passage over the square of its width [1]."""
     return float(open_area(shape, SX(1)))
-
-
-def check_shape(shape: str) -> bool:
-    """Return whether there is such a shape."""
-    return shape in get_args(Shape)
 
 
 def _halves(shape: Shape) -> Half:
