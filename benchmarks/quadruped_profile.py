@@ -22,7 +22,7 @@ from arthur_acausal.models.arthur.walking import Walking
 from arthur_acausal.mujoco.dynamics import Dynamics
 from arthur_acausal.solve import callbacks, ida
 
-PARTS = ("MuJoCo", "residual", "Jacobian", "factorisation", "solver", "controller", "Python")
+PARTS: tuple[str, ...] = ("MuJoCo", "residual", "Jacobian", "factorisation", "solver", "controller", "Python")
 REPETITIONS = 50
 
 
@@ -30,7 +30,7 @@ class Clocks:
     """The CPU time [s] of each part, without that of parts called from within it."""
 
     def __init__(self) -> None:
-        self.seconds = dict.fromkeys(PARTS, 0.0)
+        self.seconds: dict[str, float] = {part: 0.0 for part in PARTS}
         self.factorisations = 0
         self.start()
 
