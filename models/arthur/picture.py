@@ -37,7 +37,7 @@ def picture(solution: Solution) -> Figure:
         }
     )
     *_, chamber_axes, power_axes = figure.axes
-    shade_range(chamber_axes, solution)
+    shade_range(chamber_axes, solution, "cylinders[*].p_?", "range of all")
     stack_losses(power_axes, solution)
     return figure
 
@@ -50,11 +50,11 @@ def chambers(solution: Solution) -> dict[str, str]:
     }
 
 
-def shade_range(axes: Axes, solution: Solution) -> None:
-    """Shade between the lowest and the highest pressure of all chambers."""
-    pressures = solution.values(solution.select("cylinders[*].p_?")) / 1e5
+def shade_range(axes: Axes, solution: Solution, pattern: str, label: str) -> None:
+    """Shade between the lowest and the highest of all pressures of a pattern."""
+    pressures = solution.values(solution.select(pattern)) / 1e5
     low, high = pressures.min(axis=1), pressures.max(axis=1)
-    axes.fill_between(solution.t, low, high, color="#e4e4e4", zorder=0.4, label="range of all")
+    axes.fill_between(solution.t, low, high, color="#e4e4e4", zorder=0.4, label=label)
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8.0)
 
 

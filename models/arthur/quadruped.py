@@ -177,6 +177,12 @@ class Quadruped(Hydraulics):
         """Return how it walked and what that took: see models.arthur.figures."""
         return figures(solution, self.payload)
 
+    def figure(self, solution: Solution) -> Figure:
+        """Return the picture of a run: trunk, feet, pressures, flows and powers."""
+        from arthur_acausal.models.arthur.quadruped_picture import picture
+
+        return picture(solution)
+
     def beside(self) -> dict[str, dict[str, str]]:
         """Return what a film shows beside the robot: the supply's pressures, and the chambers of a knee."""
         knee = f"actuators[{JOINT_NAMES.index('FL_knee')}].cylinder"

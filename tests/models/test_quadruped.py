@@ -15,6 +15,7 @@ from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimension
 from arthur_acausal.models.arthur.figures import attitude, contact_speeds
 from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
 from arthur_acausal.models.arthur.quadruped import Quadruped
+from arthur_acausal.models.arthur.quadruped_picture import LOSSES, total
 from arthur_acausal.models.arthur.trouble import counts
 
 WEIGHT = Dimensions().mass * 9.81
@@ -116,3 +117,18 @@ def test_a_fall_ends_the_run_and_is_told() -> None:
     told = model.model.notes(run)  # type: ignore[attr-defined]
     assert told[-1] == f"the robot fell at {run.t[-1]:.3g} s"
     assert len(told) - 1 == sum(number > 0 for number in counts(run).values())
+
+
+def test_the_picture_shows_every_loss_once() -> None:
+    """The layers of its last panel are the losses of the energy audit, which meters integrate."""
+    run = standing()
+    layers = sum(np.trapezoid(total(run, *signals), run.t) for signals in LOSSES.values())
+    assert layers == pytest.approx(sum(run.energy().losses_J.values()), rel=0.01)
+    figure = Quadruped().figure(run)
+    assert [axes.get_ylabel().split(" [")[0] for axes in figure.axes[-4:]] == [
+        "force on the feet",
+        "pressure",
+        "flow",
+        "power",
+    ]
+    assert len(figure.axes[2].lines) >= 2  # roll and pitch

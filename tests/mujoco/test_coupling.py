@@ -56,8 +56,8 @@ class Driven(Component):
         t = TRIANGLE
         length = float(t.length(PHI))
         self.linkage = CylinderLinkage(a=t.a, b=t.b, psi_0=t.psi_0, direction=t.direction, l_0=length)
-        pressures = {"p_A": start("40 bar", fixed=True), "p_B": start("10 bar", fixed=True)}
-        self.cylinder = Cylinder(inertia=self.loaded, m=0.5, **pressures)
+        p_A, p_B = start("40 bar", fixed=True), start("10 bar", fixed=True)
+        self.cylinder = Cylinder(inertia=self.loaded, m=0.5, p_A=p_A, p_B=p_B)
         if self.loaded:
             self.wheel, self.spring, self.wall = Inertia(J=0.3), SpringDamper(c=20.0, d=0.1), Fixed()
 
