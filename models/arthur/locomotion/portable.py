@@ -16,14 +16,13 @@ COMMANDS: dict[str, type[Constant | Table]] = {kind.__name__: kind for kind in (
 def as_data(configuration: Configuration) -> dict[str, Any]:
     """Return a configuration in terms of JSON. Raises UsageError where its commands are a function of the user's."""
     commands = configuration.commands
-    name = type(commands).__name__
-    if COMMANDS.get(name) is not type(commands):
+    if not isinstance(commands, Constant | Table):
         raise UsageError(
             f"the commands {commands!r} cannot be made again in another process",
             cause="they are a function",
             remedy="give them as Constant(...), Table(...) or read_commands(FILE)",
         )
-    return asdict(configuration) | {"commands": {"kind": name, **asdict(commands)}}
+    return asdict(configuration) | {"commands": {"kind": type(commands).__name__, **asdict(commands)}}
 
 
 def of_data(data: Mapping[str, Any]) -> Configuration:
