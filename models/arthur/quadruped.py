@@ -32,6 +32,7 @@ from arthur_acausal.models.arthur.hydraulics import Hydraulics
 from arthur_acausal.models.arthur.locomotion.commands import Command, Constant
 from arthur_acausal.models.arthur.locomotion.controller import Configuration
 from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
+from arthur_acausal.models.arthur.quadruped_picture import picture
 from arthur_acausal.models.arthur.trouble import notes
 from arthur_acausal.models.arthur.walking import Walking
 from arthur_acausal.mujoco import MujocoBody
@@ -177,12 +178,6 @@ class Quadruped(Hydraulics):
         """Return how it walked and what that took: see models.arthur.figures."""
         return figures(solution, self.payload)
 
-    def figure(self, solution: Solution) -> Figure:
-        """Return the picture of a run: trunk, feet, pressures, flows and powers."""
-        from arthur_acausal.models.arthur.quadruped_picture import picture
-
-        return picture(solution)
-
     def beside(self) -> dict[str, dict[str, str]]:
         """Return what a film shows beside the robot: the supply's pressures, and the chambers of a knee."""
         knee = f"actuators[{JOINT_NAMES.index('FL_knee')}].cylinder"
@@ -195,16 +190,7 @@ class Quadruped(Hydraulics):
         """Return the picture of a run: with ``audit`` where the energy went, else how it moved and was fed."""
         if self.audit:
             return budget({f"{self.gait}, {solution.t[-1]:.3g} s": solution})
-        return solution.plot(
-            {
-                "trunk [m]": {"height": "body.base_z"},
-                "velocity [m/s]": {"x": "body.base_v_x", "y": "body.base_v_y"},
-                "feet [N]": {leg: f"body.sensor_{leg}_touch" for leg in LEGS},
-                **self.beside(),
-                "flow [L/min]": {"pump": "unit.pump.q", "pistons": "unit.q_command"},
-                "power [W]": {"battery": "unit.drive.P_battery"},
-            }
-        )
+        return picture(solution)
 
     def notes(self, solution: Solution) -> list[str]:
         """Return what went wrong, a line each: see models.arthur.trouble."""
