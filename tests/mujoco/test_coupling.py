@@ -94,7 +94,7 @@ def test_mujoco_and_planar_parts_agree(loaded: bool) -> None:
 def test_the_cylinder_s_work_is_the_joint_s_and_lifts_the_ball(loaded: bool) -> None:
     run = lifted(True, loaded)
     cylinder = np.trapezoid(-run["cylinder.flange.f"] * run["cylinder.v"], run.t)
-    joint = np.trapezoid(run["linkage.tau"] * run["body.hinge_w"], run.t)
+    joint = float(np.trapezoid(run["linkage.tau"] * run["body.hinge_w"], run.t))
     assert cylinder == pytest.approx(joint, rel=1e-4)
     gained = np.ptp((run["body.E_kinetic"] + run["body.E_potential"])[[0, -1]])
     if loaded:
