@@ -41,7 +41,10 @@ def low_pass_poles(
             product *= abs(p) / abs(1j * w - p)
         return product
 
-    at = float(brentq(lambda w: amplitude(w) - CUT, 0.1, 100.0 * order)) if normalized else 1.0
+    at = 1.0
+    if normalized:
+        root: Any = brentq(lambda w: amplitude(w) - CUT, 0.1, 100.0 * order)
+        at = float(root)
     small = 1e-9
     real = [p.real / at for p in poles if abs(p.imag) < small]
     upper = sorted((p / at for p in poles if p.imag >= small), key=lambda p: (p.imag, p.real))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy import signal
@@ -40,7 +42,7 @@ def test_filters_answer_a_step_as_their_transfer_functions_do() -> None:
     t = 0.016 * np.arange(50)
     for name, kind in KINDS.items():
         p = 4 * np.pi * poles(kind, 3)
-        _, y = signal.step(signal.ZerosPolesGain([], p, np.prod(-p).real), T=t)
+        y: Any = signal.step(signal.ZerosPolesGain([], p, np.prod(-p).real), T=t)[1]
         assert solution.at(0.1 + t, f"{name}.y") == pytest.approx(0.1 + y.real, abs=1e-6), name
 
 
@@ -48,8 +50,8 @@ def test_derivatives_of_a_filter_up_to_its_order() -> None:
     solution = run("FilterWithDifferentiation", 0.9)
     t = 0.025 * np.arange(28)
     p = 4 * np.pi * poles("Bessel", 3)
-    _, first = signal.impulse(signal.ZerosPolesGain([], p, np.prod(-p).real), T=t)
-    _, second = signal.impulse(signal.ZerosPolesGain([0.0], p, np.prod(-p).real), T=t)
+    first: Any = signal.impulse(signal.ZerosPolesGain([], p, np.prod(-p).real), T=t)[1]
+    second: Any = signal.impulse(signal.ZerosPolesGain([0.0], p, np.prod(-p).real), T=t)[1]
     assert solution.at(0.1 + t, "der1.y") == pytest.approx(first.real, abs=1e-4)
     assert solution.at(0.1 + t[1:], "der2.y") == pytest.approx(second.real[1:], abs=2e-2)
 

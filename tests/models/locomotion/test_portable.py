@@ -36,6 +36,7 @@ def test_a_restored_controller_does_the_same() -> None:
     copy = Walking.restore(json.loads(json.dumps(walking.describe())))
     sensors = np.concatenate([np.zeros(3), [1.0], np.zeros(9), Dimensions().stand * 4, np.zeros(19)])
     sensors[2], sensors[37:41], sensors[43] = 0.25, 24.0, 9.81
+    here = np.zeros(0)
     for k in range(40):
         here, there = walking(0.002 * k, sensors), copy(0.002 * k, sensors)
         assert np.isfinite(here).all() and (here == there).all()
