@@ -7,6 +7,7 @@ import re
 
 NUMBER = re.compile(r"[-+]?(?:\d[\d,]*\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 DURATION = re.compile(r"\b\d[\d.e+]* (?:s|ms|µs|min)\b(?= \w|,|$| *\n)")
+TIME = re.compile(r"\b\d[\d.e+]* (?:s|ms|µs|min)\b")
 STATISTICS = re.compile(r"^statistics\n(?:  .*\n?)*", re.MULTILINE)
 VERIFICATION = re.compile(r"(?<=\n)(verification: .*\n)(?:  .*\n?)*")
 COUNT = "#"  # stands for a number that may differ
@@ -29,7 +30,7 @@ def normal(text: str) -> str:
     """The text with what may differ made equal."""
     text = VERIFICATION.sub(r"\1", text)  # which equations are the worst is a matter of rounding
     text = DURATION.sub(f"{COUNT} s", text)
-    text = STATISTICS.sub(lambda m: NUMBER.sub(COUNT, m[0]), text)
+    text = STATISTICS.sub(lambda m: NUMBER.sub(COUNT, TIME.sub(f"{COUNT} s", m[0])), text)
     return NUMBER.sub(lambda m: COUNT if 0.0 < abs(value(m[0])) < SMALL else m[0], text)
 
 
