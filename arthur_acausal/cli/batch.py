@@ -108,7 +108,7 @@ def sweep(
     from arthur_acausal.cli.sweep import Request
     from arthur_acausal.cli.sweep import sweep as carry_out
 
-    scalars = {"method": method, "samples": samples, "seed": seed, "stop_time": stop, "tolerance": rtol}
+    scalars = {"method": method, "samples": samples, "seed": seed, "stop-time": stop, "rtol": rtol}
     text, any_ok = carry_out(
         Request(
             model=model,
@@ -260,17 +260,10 @@ def fit(
 ) -> None:
     """Fit parameters to measurements by least squares."""
     from arthur_acausal.cli.searching import fit as carry_out
-    from arthur_acausal.cli.sweep import Request
+    from arthur_acausal.cli.searching import request_of
 
-    request = Request(
-        model,
-        vary=vary,
-        settings=settings or (),
-        inputs=inputs or (),
-        starts=starts or (),
-        scalars={"stop_time": stop, "tolerance": rtol},
-        workers=workers,
-    )
+    scalars = {"stop-time": stop, "rtol": rtol}
+    request = request_of(model, vary, settings, inputs, starts, scalars, workers)
     typer.echo(carry_out(request, measured, match, output, as_json))
 
 
@@ -303,17 +296,10 @@ def optimize(
 ) -> None:
     """Find the parameters of the least or greatest reduction."""
     from arthur_acausal.cli.searching import optimize as carry_out
-    from arthur_acausal.cli.sweep import Request
+    from arthur_acausal.cli.searching import request_of
 
-    request = Request(
-        model,
-        vary=vary,
-        settings=settings or (),
-        inputs=inputs or (),
-        starts=starts or (),
-        scalars={"stop_time": stop, "tolerance": rtol, "seed": seed},
-        workers=workers,
-    )
+    scalars = {"stop-time": stop, "rtol": rtol, "seed": seed}
+    request = request_of(model, vary, settings, inputs, starts, scalars, workers)
     typer.echo(carry_out(request, minimize, maximize, limits or (), output, population, generations, as_json))
 
 

@@ -5,11 +5,33 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from arthur_acausal.cli.sweep import Request, read
 from arthur_acausal.cli.table import count, number, table
 from arthur_acausal.errors import UsageError
 from arthur_acausal.request.settings import assignments
+
+
+def request_of(
+    model: str,
+    vary: Sequence[str],
+    settings: Sequence[str] | None,
+    inputs: Sequence[str] | None,
+    starts: Sequence[str] | None,
+    scalars: dict[str, Any],
+    workers: int | None,
+) -> Request:
+    """Return what the options that both commands have ask for."""
+    return Request(
+        model,
+        vary=vary,
+        settings=settings or (),
+        inputs=inputs or (),
+        starts=starts or (),
+        scalars=scalars,
+        workers=workers,
+    )
 
 
 def fit(request: Request, measured: Path, match: Sequence[str], folder: Path, as_json: bool) -> str:

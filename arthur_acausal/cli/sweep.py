@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from arthur_acausal.sweep.specification import Specification
 
 LARGE = 10e9  # bytes of trajectories above which a sweep must be confirmed
+KEYS = {
+    "stop-time": "stop_time",
+    "rtol": "tolerance",
+}  # options -> keys of a specification, where they differ
 SHOWN = 12  # runs of a dry run's table at its head; a few more at its end
 
 
@@ -89,10 +93,9 @@ def read(request: Request) -> tuple[Specification, Path]:
     from arthur_acausal.sweep.specification import from_mapping, from_toml
 
     if request.model.endswith(".toml"):
-        if request.vary or request.zip or request.derive or request.settings:
+        if named := _specifying(request):
             raise UsageError(
-                f"{request.model} says what varies",
-                remedy="write --vary, --zip, --derive and --set into the file",
+                f"{request.model} says what the sweep is", remedy=f"write {', '.join(named)} into the file"
             )
         file = Path(request.model)
         return from_toml(file), file.resolve().parent
@@ -111,11 +114,31 @@ def read(request: Request) -> tuple[Specification, Path]:
         "start": assignments(request.starts, "--start"),
         "output": output,
     }
-    given |= {name: value for name, value in request.scalars.items() if value is not None}
-    if request.replicates is not None:
-        given["replicates"] = {"count": request.replicates, "parameter": request.seed_parameter or ""}
+    given |= {KEYS.get(name, name): v for name, v in request.scalars.items() if v is not None}
+    if request.replicates is not None or request.seed_parameter is not None:
+        given["replicates"] = {"count": request.replicates or 1, "parameter": request.seed_parameter or ""}
     given.setdefault("stop_time", _stop_time(request.model))
     return from_mapping(given), Path.cwd()
+
+
+def _specifying(request: Request) -> list[str]:
+    """Return the options given that say what a sweep is, rather than how it is carried out."""
+    given = {
+        "--vary": request.vary,
+        "--zip": request.zip,
+        "--derive": request.derive,
+        "--set": request.settings,
+        "--input": request.inputs,
+        "--start": request.starts,
+        "--keep": request.keep,
+        "--reduce": request.reduce,
+        "--interval": request.interval,
+        "--no-trajectories": not request.trajectories,
+        "--replicates": request.replicates,
+        "--seed-parameter": request.seed_parameter,
+        **{f"--{name}": value is not None for name, value in request.scalars.items()},
+    }
+    return [name for name, value in given.items() if value]
 
 
 def _stop_time(model: str) -> float:

@@ -13,6 +13,7 @@ from arthur_acausal.codegen.refine import Rows, refine
 from arthur_acausal.codegen.switching import LEAVE_AT, RELATION, SWITCH
 from arthur_acausal.result.interpolate import FloatArray
 from arthur_acausal.result.variable import Variable
+from arthur_acausal.solve.failure import SolverFailure
 from arthur_acausal.solve.simulate import initial_point, simulate
 from arthur_acausal.solve.statistics import Statistics
 from arthur_acausal.solve.trajectory import Event, Trajectory
@@ -43,7 +44,16 @@ def simulate_pieces(
     ``begin``: consistent values to begin with, of ``dae``. ``arguments`` are those of ``simulate``.
     """
     if dae.sets is None or variant is None:
-        pieces.append(Piece(dae, simulate(dae, start_time=start_time, begin=begin, **arguments)))
+        done = simulate(dae, start_time=start_time, begin=begin, **arguments)
+        if _wants_another_set(done):
+            failure = SolverFailure(
+                f"the chosen set of states becomes singular at t = {done.t[-1]:.9g} s",
+                cause="another one is to take over, and the compiled system alone does not hold it",
+                remedy="simulate the translated model itself, which can make it",
+            )
+            failure.trajectory = done
+            raise failure
+        pieces.append(Piece(dae, done))
         return
     grid = arguments["options"].grid(start_time, arguments["stop_time"])
     start = arguments.pop("start")
@@ -63,13 +73,18 @@ def simulate_pieces(
         times = np.concatenate([[time], grid[grid > time]])
         done = simulate(current, start_time=time, start=given, grid=times, **arguments)
         pieces.append(Piece(current, done))
-        if done.status != "terminated" or done.message != SWITCH:
+        if not _wants_another_set(done):
             return
         assert current.sets is not None
         chosen = current.sets.choose(_entries(pieces[-1]))
         current = variant(chosen, True)
         given = _values_at_end(pieces[-1], current)
         time = float(done.t[-1])
+
+
+def _wants_another_set(done: Trajectory) -> bool:
+    """Whether a run was ended because its set of states becomes singular."""
+    return done.status == "terminated" and done.message == SWITCH
 
 
 def _entries_of_guess(

@@ -13,15 +13,12 @@ from typing import Any
 from arthur_acausal.errors import ArthurError, UsageError
 from arthur_acausal.sweep import store as stores
 from arthur_acausal.sweep.design import Run
-from arthur_acausal.sweep.execute import COUNTS, Outcome
+from arthur_acausal.sweep.execute import COUNTS, GOOD, Outcome
 from arthur_acausal.sweep.lock import Lock
 from arthur_acausal.sweep.plan import Plan
 from arthur_acausal.sweep.specification import differences
 from arthur_acausal.sweep.store import Row, Store
 from arthur_acausal.sweep.task import Task
-
-GOOD = ("ok", "terminated")
-LOCAL_DASK = "local-dask"
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +56,9 @@ class Tally:
     last: str = ""
     causes: dict[str, int] = field(default_factory=dict)
 
-    def add(self, task: Task, outcome: Outcome) -> None:
-        """Count one run."""
-        self.retried += task.attempts
+    def add(self, outcome: Outcome, attempts: int = 0) -> None:
+        """Count one run, before which so many attempts have failed."""
+        self.retried += attempts
         if outcome.status in GOOD:
             self.ok += 1
             return
@@ -100,7 +97,7 @@ def _fill(plan: Plan, store: Store, how: How, watch: Watch | None, begun: float)
     tally.ok = sum(finished.get(run.number) in GOOD for run in mine)
     tally.failed = tally.kept - tally.ok
     with backend(how, len(missing)) as start:
-        broken: list[tuple[Task | None, Run, str]] = []
+        broken: list[tuple[Run, str]] = []
         columns: dict[int, dict[str, float | str]] = {}
 
         def tasks() -> Iterator[Task]:
@@ -108,7 +105,7 @@ def _fill(plan: Plan, store: Store, how: How, watch: Watch | None, begun: float)
                 try:
                     task, columns[run.number] = plan.task(run)
                 except ArthurError as error:  # a value out of bounds, a structure that does not translate
-                    broken.append((None, run, str(error)))
+                    broken.append((run, str(error)))
                     continue
                 yield task
 
@@ -116,28 +113,25 @@ def _fill(plan: Plan, store: Store, how: How, watch: Watch | None, begun: float)
         for task, outcome in start(lambda: next(pending, None)):
             row = row_of(task.number, columns.pop(task.number), outcome, task.attempts)
             store.add(row, outcome.trajectory, task.number)
-            tally.add(task, outcome)
-            _flush(broken, store, tally, plan)
+            tally.add(outcome, task.attempts)
+            _flush(broken, store, tally)
             tally.wall_s = perf_counter() - begun
             if watch is not None:
                 watch(tally)
-    _flush(broken, store, tally, plan)
+    _flush(broken, store, tally)
     store.fold()
     tally.wall_s = perf_counter() - begun
     return tally
 
 
-def _flush(broken: list[tuple[Task | None, Run, str]], store: Store, tally: Tally, plan: Plan) -> None:
+def _flush(broken: list[tuple[Run, str]], store: Store, tally: Tally) -> None:
     """Keep the runs that could not begin."""
     while broken:
-        _, run, error = broken.pop(0)
+        run, error = broken.pop(0)
         columns = {path: value for path, value in run.values.items() if isinstance(value, float)}
         outcome = Outcome("failed", error)
         store.add(row_of(run.number, columns, outcome, 0), None, run.number)
-        tally.failed += 1
-        tally.last = error
-        cause = error.partition("\n")[0]
-        tally.causes[cause] = tally.causes.get(cause, 0) + 1
+        tally.add(outcome)
 
 
 def _in_shard(run: Run, shard: tuple[int, int] | None) -> bool:
@@ -154,6 +148,7 @@ def row_of(number: int, columns: Mapping[str, float | str], outcome: Outcome, at
         "end_time": outcome.end_time,
         **outcome.reductions,
         **{name: outcome.statistics.get(name, 0) for name in COUNTS},
+        "notes": outcome.notes,
         "attempts": attempts + 1,
         "wall_s": outcome.wall_s,
         "cpu_s": outcome.cpu_s,

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from arthur_acausal.codegen.compiled import CompiledDAE
     from arthur_acausal.result.solution import Solution
 
+GOOD = ("ok", "terminated")  # of a run's status
 KEPT_SYSTEMS = 8  # that a worker has loaded at a time
 COUNTS = ("steps", "rejected_steps", "residual_evaluations", "jacobian_evaluations", "events")
 
@@ -28,7 +29,8 @@ class Outcome:
     """What came of a run.
 
     ``status``: "ok", "terminated" (the model ended it), "failed", "timeout" or "crashed"; ``error``: the message;
-    ``trajectory`` (times, variables), NaN where it did not get to; seconds of wall and of CPU.
+    ``notes``: what the solver tells besides, such as start values that nothing uses; ``trajectory`` (times,
+    variables), NaN where it did not get to; seconds of wall and of CPU.
     """
 
     status: str
@@ -37,6 +39,7 @@ class Outcome:
     reductions: Mapping[str, float] = field(default_factory=dict)
     statistics: Mapping[str, int] = field(default_factory=dict)
     trajectory: NDArray[np.float64] | None = None
+    notes: str = ""
     wall_s: float = 0.0
     cpu_s: float = 0.0
     engine: str = "ida"
@@ -147,13 +150,14 @@ def _reduced(job: Job, solution: Solution | None, status: str, error: str) -> Ou
         return Outcome(status, error)
     columns: dict[str, float] = {}
     trajectory = None
-    if status == "ok" or status == "terminated":
+    if status in GOOD:
         for reduction in job.reductions:
             columns |= reduction.of(solution)
     if job.variables:
         trajectory = on_grid(job.grid, solution, job.variables)
     counts = {name: int(getattr(solution.statistics, name)) for name in COUNTS}
-    return Outcome(status, error, float(solution.t[-1]), columns, counts, trajectory)
+    notes = "; ".join(solution.statistics.messages)
+    return Outcome(status, error, float(solution.t[-1]), columns, counts, trajectory, notes)
 
 
 def on_grid(grid: NDArray[np.float64], solution: Solution, paths: tuple[str, ...]) -> NDArray[np.float64]:

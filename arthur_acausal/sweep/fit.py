@@ -12,11 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from arthur_acausal.errors import UsageError
+from arthur_acausal.errors import SimulationError, UsageError
 from arthur_acausal.result.atomic import write_atomically
 from arthur_acausal.sweep.carry_out import How
+from arthur_acausal.sweep.execute import GOOD
 from arthur_acausal.sweep.plan import Plan
-from arthur_acausal.sweep.search import Evaluations, Unknowns, evaluations, good
+from arthur_acausal.sweep.search import Evaluations, Unknowns, evaluations
 
 FloatArray = NDArray[np.float64]
 
@@ -129,8 +130,10 @@ class _Problem:
             for point, outcome in zip(new, outcomes, strict=True):
                 at = u.low + point * (u.high - u.low)
                 told = ", ".join(f"{n} = {v:.5g}" for n, v in zip(u.names, at.tolist(), strict=True))
-                values = good(outcome, f"the run at {told}").trajectory
-                assert values is not None  # trajectories were asked for
+                values = outcome.trajectory
+                if outcome.status not in GOOD or values is None or not np.isfinite(values).all():
+                    cause = outcome.error or f"it has no finite values beyond t = {outcome.end_time:g} s"
+                    raise SimulationError(f"the run at {told} cannot be compared", cause=cause)
                 self._known[point.tobytes()] = ((values - self._target) / self._spread).reshape(-1)
         return np.array([self._known[p.tobytes()] for p in points])
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any
@@ -104,8 +104,3 @@ def _input(value: Any) -> float | Signal:
     if not isinstance(value, Mapping):
         return float(value)
     return Signal(tuple(value["times"]), tuple(value["values"]), value["source"])
-
-
-def names_of(reductions: Sequence[Reduction]) -> list[str]:
-    """Return the columns that are known before any run; functions add theirs."""
-    return [r.name for r in reductions if r.kind != "function"]

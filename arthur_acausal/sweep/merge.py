@@ -11,6 +11,8 @@ from arthur_acausal.sweep.lock import Lock
 from arthur_acausal.sweep.specification import differences
 from arthur_acausal.sweep.store import Store
 
+OF_THE_MACHINE = ("attempts", "wall_s", "cpu_s")
+
 
 def merge(folders: Sequence[Path], target: Path) -> int:
     """Copy the runs of several directories of the same specification into ``target``; return how many it has then.
@@ -39,15 +41,38 @@ def merge(folders: Sequence[Path], target: Path) -> int:
 
 
 def _copy(folder: Path, about: dict[str, object], store: Store) -> None:
-    frame = stores.table(folder)
-    if frame is None:
-        return
-    present = stores.done(store.folder)
+    present = {int(row["run"]): row for row in _rows(store.folder)}
     has_trajectories = (folder / stores.TRAJECTORIES).exists()
     array = stores.open_trajectories(folder, about) if has_trajectories else None
-    for row in frame.to_dict("records"):
+    for row in _rows(folder):
         number = int(row["run"])
         if number in present:
+            if changed := _different(present[number], row):
+                raise UsageError(
+                    f"run {number} of {folder} has other results than the one that is in {store.folder} already",
+                    cause=f"{', '.join(changed)} differ",
+                    remedy="run both with the same versions on the same platform",
+                )
             continue
         trajectory = None if array is None or row["status"] == "crashed" else array[number].T
-        store.add({str(name): value for name, value in row.items()}, trajectory, number)
+        store.add(row, trajectory, number)
+
+
+def _rows(folder: Path) -> list[stores.Row]:
+    frame = stores.table(folder)
+    rows = [] if frame is None else frame.to_dict("records")
+    return [{str(name): value for name, value in row.items()} for row in rows]
+
+
+def _different(one: stores.Row, other: stores.Row) -> list[str]:
+    """Return the columns in which two rows of one run differ, apart from what the machine's load makes of them."""
+    names = [name for name in {**one, **other} if name not in OF_THE_MACHINE]
+    return [name for name in names if not _same(one.get(name), other.get(name))]
+
+
+def _same(a: object, b: object) -> bool:
+    return a == b or (_missing(a) and _missing(b))
+
+
+def _missing(value: object) -> bool:
+    return value is None or value != value  # NaN

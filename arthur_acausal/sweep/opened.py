@@ -55,8 +55,8 @@ class Sweep:
     @property
     def reductions(self) -> list[str]:
         """Columns of reductions."""
-        names = list(self.table.columns)
-        return names[names.index("end_time") + 1 : names.index("steps")] if "end_time" in names else []
+        names = [name for name in self.table.columns if name not in store.LAST]
+        return names[names.index(store.BEFORE) + 1 :] if store.BEFORE in names else []
 
     @cached_property
     def dataset(self) -> xarray.Dataset:

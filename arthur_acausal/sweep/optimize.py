@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from arthur_acausal.errors import SimulationError, UsageError
 from arthur_acausal.result.atomic import write_atomically
-from arthur_acausal.sweep.carry_out import GOOD, How
-from arthur_acausal.sweep.execute import Outcome
+from arthur_acausal.sweep.carry_out import How
+from arthur_acausal.sweep.execute import GOOD, Outcome
 from arthur_acausal.sweep.plan import Plan
-from arthur_acausal.sweep.search import evaluations
+from arthur_acausal.sweep.search import Evaluations, evaluations
 
 FloatArray = NDArray[np.float64]
 _LIMIT = re.compile(r"\s*(.+\))\s*(<=|>=|<|>)\s*([^<>=]+)")
@@ -81,25 +81,10 @@ def optimize(
         update={"trajectories": False, "reductions": (objective, *(b.name for b in bounds))}
     )
     plan = Plan(plan.specification.model_copy(update={"output": output}), plan.folder, plan.find)
-    sign = -1.0 if maximize else 1.0
-    best: tuple[float, FloatArray, Outcome] | None = None
-    failed = 0
     with evaluations(plan, folder, how, "optimize") as (unknowns, evaluate):
-
-        def value(points: FloatArray) -> FloatArray:
-            nonlocal best, failed
-            points = np.atleast_2d(points.T)
-            scores = []
-            for point, outcome in zip(points, evaluate(points), strict=True):
-                score = _score(outcome, objective, sign, bounds)
-                failed += outcome.status not in GOOD
-                scores.append(score)
-                if outcome.status in GOOD and (best is None or score < best[0]):
-                    best = score, point, outcome
-            return np.array(scores)
-
+        search = _Search(evaluate, objective, -1.0 if maximize else 1.0, bounds)
         found: Any = differential_evolution(
-            value,
+            search,
             list(zip(unknowns.low.tolist(), unknowns.high.tolist(), strict=True)),
             maxiter=generations,
             popsize=population,
@@ -108,27 +93,50 @@ def optimize(
             updating="deferred",
             vectorized=True,
         )
-        if best is None:
+        if search.best is None:
             raise SimulationError("every run failed", remedy=f"see the column error of {folder}")
-        _, point, outcome = best
+        _, point, values = search.best
         result = Optimum(
             dict(zip(unknowns.names, point.tolist(), strict=True)),
-            outcome.reductions[objective],
-            {b.name: outcome.reductions[b.name] for b in bounds},
+            values[objective],
+            {b.name: values[b.name] for b in bounds},
             evaluate.count,
-            failed,
-            bool(found.success) and all(b.violation(outcome.reductions[b.name]) == 0.0 for b in bounds),
+            search.failed,
+            bool(found.success) and all(b.violation(values[b.name]) == 0.0 for b in bounds),
             str(found.message),
         )
     write_atomically(folder / "optimum.json", json.dumps(asdict(result), indent=1).encode())
     return result
 
 
+class _Search:
+    """What is least: the scores of points (unknowns, points); remembers the best one and how many runs failed."""
+
+    def __init__(self, evaluate: Evaluations, objective: str, sign: float, limits: Sequence[_Limit]) -> None:
+        self._evaluate, self._objective, self._sign, self._limits = evaluate, objective, sign, limits
+        self.best: tuple[float, FloatArray, Mapping[str, float]] | None = None
+        self.failed = 0
+
+    def __call__(self, points: FloatArray) -> FloatArray:
+        points = np.atleast_2d(points.T)
+        scores = []
+        for point, outcome in zip(points, self._evaluate(points), strict=True):
+            score = _score(outcome, self._objective, self._sign, self._limits)
+            self.failed += score == BAD
+            scores.append(score)
+            if score < BAD and (self.best is None or score < self.best[0]):
+                self.best = score, point, outcome.reductions
+        return np.array(scores)
+
+
 def _score(outcome: Outcome, objective: str, sign: float, limits: Sequence[_Limit]) -> float:
-    if outcome.status not in GOOD or not math.isfinite(outcome.reductions.get(objective, math.nan)):
+    """Return what is to be least: `BAD` for a run that failed, or has no value of what is asked for."""
+    values = outcome.reductions
+    asked = [objective, *(limit.name for limit in limits)]
+    if outcome.status not in GOOD or not all(math.isfinite(values.get(name, math.nan)) for name in asked):
         return BAD
-    broken = sum(limit.violation(outcome.reductions[limit.name]) for limit in limits)
-    return 1e30 * (1.0 + broken) if broken > 0.0 else sign * outcome.reductions[objective]
+    broken = sum(limit.violation(values[limit.name]) for limit in limits)
+    return 1e30 * (1.0 + broken) if broken > 0.0 else sign * values[objective]
 
 
 def _limit(text: str) -> _Limit:

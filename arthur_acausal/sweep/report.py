@@ -16,12 +16,12 @@ import numpy as np
 
 from arthur_acausal.errors import UsageError
 from arthur_acausal.result.atomic import write_atomically
-from arthur_acausal.sweep.carry_out import GOOD
+from arthur_acausal.sweep.execute import GOOD
 from arthur_acausal.sweep.opened import Sweep
 
 MOST_NUMBERS = 1_500_000  # of trajectories in a page: 8 MB
 MOST_TIMES = 200
-TEXT = ("status", "error", "engine", "platform", "model")
+TEXT = ("status", "error", "notes", "engine", "platform", "model")
 OF_THE_MACHINE = (
     "platform",
     "engine",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -11,19 +11,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from arthur_acausal.errors import SimulationError, UsageError
+from arthur_acausal.errors import UsageError
 from arthur_acausal.sweep import store as stores
-from arthur_acausal.sweep.carry_out import GOOD, How, Start, about, backend, row_of
+from arthur_acausal.sweep.carry_out import How, Start, about, backend, row_of
 from arthur_acausal.sweep.design import Run
 from arthur_acausal.sweep.execute import Outcome
 from arthur_acausal.sweep.factor import Factor, parse_factor, quantity
+from arthur_acausal.sweep.job import Job
 from arthur_acausal.sweep.lock import Lock
 from arthur_acausal.sweep.plan import Plan
 from arthur_acausal.sweep.store import Store
 from arthur_acausal.sweep.task import Task
 
 FloatArray = NDArray[np.float64]
-Watch = Callable[[int, float], None]
 
 
 class Unknowns:
@@ -71,6 +71,7 @@ class Evaluations:
     ) -> None:
         self._plan, self._unknowns, self._store, self._start = plan, unknowns, store, start
         self._times = tuple(times)
+        self._job: Job | None = None  # that of all evaluations, with their times
         self.count = 0
 
     def __call__(self, points: FloatArray) -> list[Outcome]:
@@ -81,9 +82,8 @@ class Evaluations:
             self.count += 1
             values = dict(zip(self._unknowns.names, point.tolist(), strict=True))
             task, columns[number] = self._plan.task(_run(self._plan, number, values))
-            if self._times:
-                task = replace(task, job=self._timed(task))
-            tasks.append(task)
+            self._job = self._job or replace(task.job, times=self._times)
+            tasks.append(replace(task, job=self._job))
         first = tasks[0].number
         outcomes: dict[int, Outcome] = {}
         pending: Iterator[Task] = iter(tasks)
@@ -93,11 +93,6 @@ class Evaluations:
             )
             outcomes[task.number - first] = outcome
         return [outcomes[k] for k in range(len(tasks))]
-
-    def _timed(self, task: Task) -> Any:
-        if not hasattr(self, "_job"):
-            self._job = replace(task.job, times=self._times)
-        return self._job
 
 
 @contextmanager
@@ -119,10 +114,3 @@ def evaluations(
             store.describe({**store.about, "runs": evaluate.count})
             store.fold()
             store.close()
-
-
-def good(outcome: Outcome, what: str) -> Outcome:
-    """Return an outcome; SimulationError where the run failed."""
-    if outcome.status in GOOD:
-        return outcome
-    raise SimulationError(f"{what} fails", cause=outcome.error)

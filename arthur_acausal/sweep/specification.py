@@ -65,7 +65,6 @@ class Specification(_Section):
     set, inputs, start : fixed parameters (structural ones too), inputs and start values by path.
     output : what is kept.
     replicates : repetitions.
-    engine : "auto" or "ida".
     """
 
     models: Annotated[tuple[str, ...], Field(min_length=1)]
@@ -83,7 +82,6 @@ class Specification(_Section):
     start: dict[str, Given] = Field(default_factory=dict)
     output: Output = Output()
     replicates: Replicates = Replicates()
-    engine: Literal["auto", "ida"] = "auto"
 
     @model_validator(mode="before")
     @classmethod

@@ -16,7 +16,7 @@ import json
 import math
 import os
 import zlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from arthur_acausal.errors import ResultError, UsageError
 from arthur_acausal.result.atomic import write_atomically
+from arthur_acausal.sweep.execute import COUNTS
 
 if TYPE_CHECKING:
     import pandas
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
 ABOUT, TABLE, JOURNAL, TRAJECTORIES = "sweep.json", "runs.parquet", "journal.jsonl", "trajectories.zarr"
 FOLD_AT = 20_000  # rows in the journal after which it is folded into the table
 Row = dict[str, Any]
+BEFORE = "end_time"  # the column behind which reductions stand
+# Columns behind the reductions, which a failed run has none of.
+LAST = (*COUNTS, "notes", "attempts", "wall_s", "cpu_s", "engine", "platform")
 
 
 class Store:
@@ -161,19 +165,13 @@ def read_about(folder: Path) -> dict[str, Any]:
 
 
 def journal(folder: Path) -> list[Row]:
-    """Return the journal's rows; a torn or damaged line ends it."""
+    """Return the journal's rows, without lines that are torn or damaged."""
     path = folder / JOURNAL
     try:
         content = path.read_bytes()
     except FileNotFoundError:
         return []
-    rows = []
-    for line in content.split(b"\n")[:-1]:
-        row = _read_line(line)
-        if row is None:
-            break
-        rows.append(row)
-    return rows
+    return [row for line in content.split(b"\n")[:-1] if (row := _read_line(line)) is not None]
 
 
 def table(folder: Path) -> pandas.DataFrame | None:
@@ -193,7 +191,8 @@ def table(folder: Path) -> pandas.DataFrame | None:
         return None
     frame = parts[0] if len(parts) == 1 else pd.concat(parts, ignore_index=True)
     frame = frame.drop_duplicates("run", keep="last").sort_values("run", kind="stable")
-    return frame.reset_index(drop=True)
+    last = [name for name in LAST if name in frame]
+    return frame[[*(name for name in frame if name not in last), *last]].reset_index(drop=True)
 
 
 def write_table(folder: Path, frame: pandas.DataFrame) -> None:
@@ -207,15 +206,17 @@ def open_trajectories(folder: Path, about: Mapping[str, Any], *, write: bool = F
     """Return the Zarr array (run, variable, time), made or made larger where it is to be written."""
     import zarr
 
-    path = folder / TRAJECTORIES
+    path, part = folder / TRAJECTORIES, folder / f".{TRAJECTORIES}.part"
     kept: Mapping[str, Any] = about["trajectories"]
     shape = (int(about["runs"]), len(kept["variables"]), len(kept["time"]))
     if not path.exists():
         if not write:
             raise ResultError(f"{folder} holds no trajectories")
-        group = zarr.open_group(path, mode="w")
-        _coordinate(group, "time", np.array(kept["time"]), {"units": "s"})
-        return group.create_array(
+        group = zarr.open_group(part, mode="w")
+        group.create_array(
+            "time", data=np.array(kept["time"]), dimension_names=("time",), attributes={"units": "s"}
+        )
+        group.create_array(
             "trajectory",
             shape=shape,
             chunks=(1, *(max(1, n) for n in shape[1:])),
@@ -224,14 +225,11 @@ def open_trajectories(folder: Path, about: Mapping[str, Any], *, write: bool = F
             dimension_names=("run", "variable", "time"),
             attributes={"variables": list(kept["variables"]), "units": list(kept["units"])},
         )
-    kept_array: Any = zarr.open_group(path, mode="r+" if write else "r")["trajectory"]
-    if write and kept_array.shape[0] < shape[0]:
-        kept_array.resize(shape)
-    return kept_array
-
-
-def _coordinate(group: Any, name: str, values: NDArray[Any], attributes: Mapping[str, Any]) -> None:
-    group.create_array(name, data=values, dimension_names=(name,), attributes=dict(attributes))
+        os.rename(part, path)  # it is there whole or not at all
+    array: Any = zarr.open_group(path, mode="r+" if write else "r")["trajectory"]
+    if write and array.shape[0] < shape[0]:
+        array.resize(shape)
+    return array
 
 
 def done(folder: Path) -> dict[int, str]:
@@ -242,21 +240,12 @@ def done(folder: Path) -> dict[int, str]:
     return dict(zip(frame["run"].astype(int).tolist(), frame["status"].tolist(), strict=True))
 
 
-def columns_of(rows: Iterable[Mapping[str, Any]]) -> Sequence[str]:
-    """Return the names of all columns in the order of their appearance."""
-    return list(dict.fromkeys(name for row in rows for name in row))
-
-
 def _cut_torn_line(path: Path) -> None:
     """Remove what a killed process left behind the last whole line."""
     if not path.exists():
         return
     content = path.read_bytes()
-    whole = 0
-    for line in content.splitlines(keepends=True):
-        if not line.endswith(b"\n") or _read_line(line[:-1]) is None:
-            break
-        whole += len(line)
+    whole = content.rfind(b"\n") + 1
     if whole < len(content):
         os.truncate(path, whole)
 

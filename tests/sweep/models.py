@@ -54,6 +54,16 @@ class Chain(Component):
         yield self.x == sum((lag.x for lag in self.lags), 0.0)
 
 
+class Guessed(Decay):
+    """With a start value for what is computed."""
+
+    y: Real = variable("1", start=3.0)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.y == 2 * self.x
+
+
 class Explosion(Component):
     """x' = x^2 / T: infinite at t = T / x0."""
 
@@ -62,6 +72,30 @@ class Explosion(Component):
 
     def equations(self) -> Equations:
         yield self.T * der(self.x) == self.x**2
+
+
+class Turning(Component):
+    """A pendulum in Cartesian coordinates that turns over: no set of states serves all the way round."""
+
+    L: Real = parameter("m", default=1.0, min=0.0)
+    w: Real = parameter("rad/s", default=8.0)
+    g: Real = parameter("m/s^2", default=9.81)
+    x: Real = variable("m", start=1.0)
+    y: Real = variable("m", start=0.0)
+    v: Real = variable("m/s")
+    u: Real = variable("m/s", start=8.0)
+    pull: Real = variable("1/s^2", start=70.0)
+
+    def equations(self) -> Equations:
+        yield self.v == der(self.x)
+        yield self.u == der(self.y)
+        yield der(self.v) == -self.pull * self.x
+        yield der(self.u) == -self.pull * self.y - self.g
+        yield self.x**2 + self.y**2 == self.L**2
+
+    def initial_equations(self) -> Equations:
+        yield self.y == 0 * self.L
+        yield self.u == self.w * self.L
 
 
 class Ending(Component):

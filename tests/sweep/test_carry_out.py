@@ -329,3 +329,52 @@ def test_a_file_beside_the_model_that_is_called_like_a_library_hides_nothing(tmp
     given = {"model": f"{tmp_path / 'decay.py'}:Decay", "stop_time": 1.0, "vary": {"tau": "1,2"}}
     tally = carry_out(Plan(from_mapping(given), tmp_path, find_model), tmp_path / "d", How(workers=1))
     assert (tally.ok, tally.failed) == (2, 0)
+
+
+def test_a_first_run_that_fails_hides_no_reduction(tmp_path: Path) -> None:
+    swept(tmp_path / "d", vary={"tau": "-1,1"}, output={"variables": ["x"], "reductions": ["max(x)"]})
+    result = arthur_acausal.sweep.open(tmp_path / "d")
+    assert result.reductions == ["max(x)"]
+    names = list(result.table.columns)
+    assert names.index("max(x)") == names.index("end_time") + 1
+
+
+def test_shards_that_contradict_each_other_are_refused(tmp_path: Path) -> None:
+    for name in "ab":
+        swept(tmp_path / name, vary={"tau": "1,2"})
+    frame = table(tmp_path / "b")
+    frame.loc[1, "final(x)"] += 1e-9
+    stores.write_table(tmp_path / "b", frame)
+    with pytest.raises(UsageError, match="run 1 of") as caught:
+        merge([tmp_path / "a", tmp_path / "b"], tmp_path / "whole")
+    assert "final(x) differ" in str(caught.value)
+    assert merge([tmp_path / "a", tmp_path / "a"], tmp_path / "same") == 2
+
+
+def test_a_damaged_line_costs_only_itself(tmp_path: Path) -> None:
+    store = stores.Store.create(tmp_path, {"specification": {}, "runs": 3})
+    for k in range(3):
+        store.add({"run": k, "status": "ok"}, None, k)
+    store.close()
+    journal = tmp_path / stores.JOURNAL
+    content = bytearray(journal.read_bytes())
+    content[len(content) // 2] ^= 1
+    journal.write_bytes(content)
+    store = stores.Store.existing(tmp_path)
+    store.add({"run": 1, "status": "again"}, None, 1)
+    store.close()
+    assert stores.done(tmp_path) == {0: "ok", 1: "again", 2: "ok"}
+
+
+def test_a_set_of_states_that_becomes_singular_is_a_failure_and_no_end(tmp_path: Path) -> None:
+    tally = swept(tmp_path / "d", model="Turning", vary={"w": "8 rad/s,9 rad/s"}, stop_time=3.0)
+    assert (tally.ok, tally.failed) == (0, 2)
+    frame = table(tmp_path / "d")
+    assert frame["status"].tolist() == ["failed", "failed"]
+    assert "set of states becomes singular" in frame["error"][0]
+    assert 0.0 < frame["end_time"][0] < 3.0
+
+
+def test_what_the_solver_tells_stands_in_the_table(tmp_path: Path) -> None:
+    swept(tmp_path / "d", model="Guessed", vary={"tau": "1,2"})
+    assert "start values that nothing uses: y" in table(tmp_path / "d")["notes"][0]

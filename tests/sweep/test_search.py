@@ -93,3 +93,14 @@ def test_failing_runs_are_the_worst_and_counted(tmp_path: Path) -> None:
     found = search(tmp_path / "a", "Explosion", vary={"T": "0.5:3"}, objective="final(x)", maximize=True)
     assert found.failed > 0
     assert found.parameters["T"] > 1.0  # below, x becomes infinite within the run
+
+
+def test_a_run_that_ends_before_the_measurements_cannot_be_compared(tmp_path: Path, measured: Path) -> None:
+    with pytest.raises(SimulationError, match="cannot be compared") as caught:
+        fit(plan("Ending", vary={"T": "0.2:0.4"}), measured, {"x": "height"}, tmp_path / "d", HOW)
+    assert "enough" in str(caught.value)
+
+
+def test_a_limit_without_a_value_is_not_met(tmp_path: Path) -> None:
+    with pytest.raises(SimulationError, match="every run failed"):
+        search(tmp_path / "a", objective="final(x)", limits=["first(x > 5) < 1"], generations=1)
