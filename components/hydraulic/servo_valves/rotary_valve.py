@@ -4,22 +4,18 @@ from __future__ import annotations
 
 from casadi import SX, fabs, fmax, fmin, sqrt
 
-from arthur_acausal import Equations, Real, der, parameter, real_output, smooth_if_else, variable
-from arthur_acausal.components.hydraulic.ports import HydraulicPort
+from arthur_acausal import Equations, Real, der, parameter, smooth_if_else, variable
 from arthur_acausal.components.hydraulic.servo_valves.jets import (
     drop_factor,
-    equal,
-    half_angle,
-    jet_angle,
     jet_force,
-    von_mises,
     with_sign,
 )
 from arthur_acausal.components.hydraulic.servo_valves.rotary_body import RotaryBody
+from arthur_acausal.components.hydraulic.servo_valves.ways import Ways
 from arthur_acausal.components.rotational import Flange
 
 
-class RotaryValve(RotaryBody):
+class RotaryValve(RotaryBody, Ways):
     """A four-way rotary valve that a shaft turns: ARTHuR report, section 3; geometry and options as `RotaryBody`.
 
     The angle of ``flange`` beyond the overlap opens P to A and B to T where positive (state 1), P to B and A to T
@@ -34,29 +30,14 @@ class RotaryValve(RotaryBody):
     overlap and one port.
     """
 
-    port_p = HydraulicPort()
-    port_t = HydraulicPort()
-    port_a = HydraulicPort()
-    port_b = HydraulicPort()
     flange = Flange()
-    leakage: Real = parameter("1", default=1.0, min=0.0, description="share of the slots' leakage")
-    u_small: Real = parameter("m/s", default=0.1, min=0.0, description="laminar below about this jet speed")
     w_small: Real = parameter("rad/s", default=1e-3, min=0.0, description="slower is creeping, not friction")
     theta: Real = variable("rad", start=0.0, nominal=0.1, description="angle of the cylinder")
     w: Real = variable("rad/s", start=0.0, nominal=10.0, description="its speed")
-    s: Real = variable("1", nominal=0.1, description="opening over the port's width, by magnitude")
-    phi: Real = variable("rad", start=0.5, description="jet angle of 3.6")
-    phi_half: Real = variable("rad", start=1.2, description="where 3.7 begins")
-    phi_jet: Real = variable("rad", start=0.5, description="jet angle")
-    u_pa: Real = variable("m/s", nominal=100.0, description="speed in the orifices from P to A")
-    u_bt: Real = variable("m/s", nominal=100.0, description="from B to T")
-    u_pb: Real = variable("m/s", nominal=100.0, description="from P to B")
-    u_at: Real = variable("m/s", nominal=100.0, description="from A to T")
     tau_jet: Real = variable("N*m", nominal=1e-3, description="of the jets, 3.31")
     tau_viscous: Real = variable("N*m", nominal=1e-3, description="of the film, 3.18")
     tau_friction: Real = variable("N*m", nominal=1e-3, description="of the radial force, 3.24")
     tau_inertia: Real = variable("N*m", nominal=1e-3, description="3.20")
-    P_loss: Real = real_output("W", description="fluid power turned to heat in the ports and lines")
 
     def opening(self, theta: SX) -> SX:
         """Return the open share [1] of the ports that open with positive ``theta`` [rad]."""
@@ -79,29 +60,18 @@ class RotaryValve(RotaryBody):
         yield "A to T", a.p - t.p == self.drop(minus, self.u_at, self.L_A)
         A_plus, A_minus = self.area(plus), self.area(minus)
         travel = fmax(fabs(self.theta), self.overlap()) - self.overlap()
-        leak = self.leakage * self.land_leakage(travel * self.r_c / self.d_p)
-        q_pa, q_bt = A_plus * self.u_pa + leak * (p.p - a.p), A_plus * self.u_bt + leak * (b.p - t.p)
-        q_pb, q_at = A_minus * self.u_pb + leak * (p.p - b.p), A_minus * self.u_at + leak * (a.p - t.p)
-        yield p.q == q_pa + q_pb
-        yield t.q == -(q_at + q_bt)
-        yield a.q == q_at - q_pa
-        yield b.q == q_bt - q_pb
-        loss = self.fluid.throttling_loss
-        of_plus = loss(q_pa, p.p, a.p) + loss(q_bt, b.p, t.p)
-        yield self.P_loss == of_plus + loss(q_pb, p.p, b.p) + loss(q_at, a.p, t.p)
+        leak = self.land_leakage(travel * self.r_c / self.d_p)
+        yield from self.flows(self.fluid, A_plus, A_minus, leak)
         yield from self._torques(A_plus, A_minus)
 
     def _torques(self, A_plus: SX, A_minus: SX) -> Equations:
         ratio = self.d_p / self.delta_r
-        yield "von Mises", equal(*von_mises(self.phi, self.s * ratio))
-        yield from half_angle(self.jet_angle, self.phi_half, ratio)
-        yield self.phi_jet == jet_angle(self.s, self.phi, self.phi_half) + self.phi_error
+        yield from self.direction(self.jet_angle, ratio, self.phi_error)
 
         def jet(area: SX, u: SX) -> SX:
             return 2 * self.r_c * jet_force(self.fluid.rho, area, u, self.phi_jet, self.C_c)
 
-        opened_plus = jet(A_plus, self.u_pa) + jet(A_plus, self.u_bt)
-        yield "jets close", self.tau_jet == opened_plus - jet(A_minus, self.u_pb) - jet(A_minus, self.u_at)
+        yield "jets close", self.tau_jet == self.jets(jet, A_plus, A_minus)
         yield "film", self.tau_viscous == self.viscous_torque(der(self.w), self.w)
         yield (
             "friction",

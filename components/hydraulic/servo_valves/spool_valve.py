@@ -4,22 +4,18 @@ from __future__ import annotations
 
 from casadi import SX, fabs, fmax, fmin, sqrt
 
-from arthur_acausal import Equations, Real, der, parameter, real_output, variable
-from arthur_acausal.components.hydraulic.ports import HydraulicPort
+from arthur_acausal import Equations, Real, der, variable
 from arthur_acausal.components.hydraulic.servo_valves.jets import (
     drop_factor,
-    equal,
-    half_angle,
-    jet_angle,
     jet_force,
-    von_mises,
     with_sign,
 )
 from arthur_acausal.components.hydraulic.servo_valves.spool_body import SpoolBody
+from arthur_acausal.components.hydraulic.servo_valves.ways import Ways
 from arthur_acausal.components.translational import Flange
 
 
-class SpoolValve(SpoolBody):
+class SpoolValve(SpoolBody, Ways):
     """A four-way spool valve that a linear actuator moves: ARTHuR report, section 3.6; geometry as `SpoolBody`.
 
     The position of ``flange`` beyond the overlap opens P to A and B to T where positive, P to B and A to T where
@@ -32,29 +28,14 @@ class SpoolValve(SpoolBody):
     """
 
     transient: bool = False
-    port_p = HydraulicPort()
-    port_t = HydraulicPort()
-    port_a = HydraulicPort()
-    port_b = HydraulicPort()
     flange = Flange()
-    leakage: Real = parameter("1", default=1.0, min=0.0, description="share of the lands' leakage")
-    u_small: Real = parameter("m/s", default=0.1, min=0.0, description="laminar below about this jet speed")
     x: Real = variable("m", start=0.0, nominal=1e-4, description="position of the spool")
     v: Real = variable("m/s", start=0.0, nominal=0.1, description="its velocity")
-    s: Real = variable("1", nominal=0.1, description="opening over the port's width, by magnitude")
-    phi: Real = variable("rad", start=0.5, description="jet angle of 3.6")
-    phi_half: Real = variable("rad", start=1.2, description="where 3.7 begins")
-    phi_jet: Real = variable("rad", start=0.5, description="jet angle")
-    u_pa: Real = variable("m/s", nominal=100.0, description="jet speed from P to A")
-    u_bt: Real = variable("m/s", nominal=100.0, description="from B to T")
-    u_pb: Real = variable("m/s", nominal=100.0, description="from P to B")
-    u_at: Real = variable("m/s", nominal=100.0, description="from A to T")
     f_jet: Real = variable("N", description="of the jets, 3.48")
     f_drag: Real = variable("N", description="of the film, 3.59")
     f_shear: Real = variable("N", description="of the leakage on the closed lands, 3.59")
     f_transient: Real = variable("N", description="3.49")
     f_inertia: Real = variable("N", description="mass times acceleration")
-    P_loss: Real = real_output("W", description="fluid power turned to heat in the ports")
 
     def opening(self, x: SX) -> SX:
         """Return the open share [1] of the ports that open with positive ``x`` [m]."""
@@ -78,30 +59,19 @@ class SpoolValve(SpoolBody):
         yield "P to B", p.p - b.p == self.drop(minus, self.u_pb)
         yield "A to T", a.p - t.p == self.drop(minus, self.u_at)
         A_plus, A_minus = self.area(plus), self.area(minus)
-        leak = self.leakage * self.land_leakage(fmax(fabs(self.x), self.L_OL) - self.L_OL)
-        q_pa, q_bt = A_plus * self.u_pa + leak * (p.p - a.p), A_plus * self.u_bt + leak * (b.p - t.p)
-        q_pb, q_at = A_minus * self.u_pb + leak * (p.p - b.p), A_minus * self.u_at + leak * (a.p - t.p)
-        yield p.q == q_pa + q_pb
-        yield t.q == -(q_at + q_bt)
-        yield a.q == q_at - q_pa
-        yield b.q == q_bt - q_pb
-        loss = self.fluid.throttling_loss
-        of_plus = loss(q_pa, p.p, a.p) + loss(q_bt, b.p, t.p)
-        yield self.P_loss == of_plus + loss(q_pb, p.p, b.p) + loss(q_at, a.p, t.p)
+        leak = self.land_leakage(fmax(fabs(self.x), self.L_OL) - self.L_OL)
+        yield from self.flows(self.fluid, A_plus, A_minus, leak)
         yield from self._forces(A_plus, A_minus)
 
     def _forces(self, A_plus: SX, A_minus: SX) -> Equations:
         p, t, a, b = self.port_p.p, self.port_t.p, self.port_a.p, self.port_b.p
         ratio = self.d_p / self.c_r
-        yield "von Mises", equal(*von_mises(self.phi, self.s * ratio))
-        yield from half_angle(self.jet_angle, self.phi_half, ratio)
-        yield self.phi_jet == jet_angle(self.s, self.phi, self.phi_half) + self.phi_error
+        yield from self.direction(self.jet_angle, ratio, self.phi_error)
 
         def jet(area: SX, u: SX) -> SX:
             return jet_force(self.fluid.rho, area, u, self.phi_jet, self.C_c)
 
-        opened_plus = jet(A_plus, self.u_pa) + jet(A_plus, self.u_bt)
-        yield "jets close", self.f_jet == opened_plus - jet(A_minus, self.u_pb) - jet(A_minus, self.u_at)
+        yield "jets close", self.f_jet == self.jets(jet, A_plus, A_minus)
         yield "film", self.f_drag == self.drag(self.v)
         # The leakages P to B and A to T pull the spool opposite ways; so do P to A and B to T in the other state.
         side = self.x / sqrt(self.x**2 + self.L_OL**2)
