@@ -36,11 +36,13 @@ VALUE_TUBE, TIME_TUBE = 1e-3, 2e-3  # shares of a signal's range and of the time
 LIBRARY = (
     "blocks",
     "circuits",
-    "semiconductors",
     "drives",
     "electrical",
+    "losses",
     "mechanics",
+    "resonance",
     "rotational",
+    "semiconductors",
     "thermal",
     "translational",
 )

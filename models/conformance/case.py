@@ -63,3 +63,8 @@ class Case:
         flat = re.sub(r"\[(\d+)\]", r"_\1", here)
         candidates = (self.signals.get(signal), signal, counted, here, flat)
         return next((path for path in candidates if path is not None and path in known), None)
+
+
+def precise(intervals: int) -> SolverOptions:
+    """Return options for a case whose reference has so many intervals: far more exact than the tube asks for."""
+    return SolverOptions(rtol=1e-8, intervals=intervals)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import pi
 
-from arthur_acausal import Component, Equations, Real, SolverOptions, connect, der, parameter, start
+from arthur_acausal import Component, Equations, Real, connect, der, parameter, start
 from arthur_acausal.components.blocks import (
     And,
     Constant,
@@ -30,7 +30,7 @@ from arthur_acausal.components.blocks import (
     Step,
 )
 from arthur_acausal.components.rotational import Inertia, SpeedSensor, SpringDamper, TorqueSource
-from arthur_acausal.models.conformance.case import Case
+from arthur_acausal.models.conformance.case import Case, precise
 
 
 class PIDController(Component):
@@ -195,19 +195,15 @@ _SIGNALS = {
 }
 
 
-def _options(intervals: int) -> SolverOptions:
-    return SolverOptions(rtol=1e-8, intervals=intervals)
-
-
 _B = "msl_Blocks_"
 _CASES = (
     Case(f"{_B}PID_Controller", PIDController, _SIGNALS, 4.0),
-    Case(f"{_B}Filter", Filters, {}, 0.9, _options(2000)),
-    Case(f"{_B}FilterWithDifferentiation", FilterWithDifferentiation, {}, 0.9, _options(2000)),
-    Case(f"{_B}FilterWithRiseTime", FilterWithRiseTime, {}, 4.0, _options(2000)),
-    Case(f"{_B}SlewRateLimiter", SlewRates, {}, 1.0, _options(5000)),
-    Case(f"{_B}CompareSincExpSine", CompareSincExpSine, {}, 1.0, _options(10000)),
-    Case(f"{_B}Modulation", Modulation, {}, 1.0, _options(20000)),
-    Case(f"{_B}LogicalNetwork1", LogicalNetwork1, {}, 10.0, _options(2000)),
+    Case(f"{_B}Filter", Filters, {}, 0.9, precise(2000)),
+    Case(f"{_B}FilterWithDifferentiation", FilterWithDifferentiation, {}, 0.9, precise(2000)),
+    Case(f"{_B}FilterWithRiseTime", FilterWithRiseTime, {}, 4.0, precise(2000)),
+    Case(f"{_B}SlewRateLimiter", SlewRates, {}, 1.0, precise(5000)),
+    Case(f"{_B}CompareSincExpSine", CompareSincExpSine, {}, 1.0, precise(10000)),
+    Case(f"{_B}Modulation", Modulation, {}, 1.0, precise(20000)),
+    Case(f"{_B}LogicalNetwork1", LogicalNetwork1, {}, 10.0, precise(2000)),
 )
 CASES: dict[str, Case] = {case.name: case for case in _CASES}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import pi
 
-from arthur_acausal import Component, Equations, Real, SolverOptions, connect, parameter, start
+from arthur_acausal import Component, Equations, Real, connect, parameter, start
 from arthur_acausal.components import rotational, translational
 from arthur_acausal.components.blocks import Constant, Product, Sine, Step
 from arthur_acausal.components.rotational import (
@@ -20,7 +20,7 @@ from arthur_acausal.components.rotational import (
     TorqueSource,
 )
 from arthur_acausal.components.translational import ElastoGap, ForceSource, Rod, SlidingMass
-from arthur_acausal.models.conformance.case import Case
+from arthur_acausal.models.conformance.case import Case, precise
 
 
 class First(Component):
@@ -154,10 +154,6 @@ class Oscillator(Component):
         yield connect(self.damper1.flange_b, self.spring2.flange_b)
 
 
-def _options(intervals: int) -> SolverOptions:
-    return SolverOptions(rtol=1e-8, intervals=intervals)
-
-
 def _relative(names: dict[str, str], *quantities: str) -> dict[str, str]:
     """Reference name -> path, for the same quantities of several elements."""
     return {f"{theirs}.{q}": f"{ours}.{q}" for theirs, ours in names.items() for q in quantities}
@@ -171,7 +167,7 @@ _CASES = (
         First,
         _relative({"damper": "damper"}, "phi_rel", "w_rel") | _relative({"inertia3": "inertia3"}, "phi", "w"),
         1.0,
-        _options(1000),
+        precise(1000),
     ),
     Case(
         "msl_Mechanics_Rotational_Friction",
@@ -184,14 +180,14 @@ _CASES = (
             for theirs, ours in _MODES.items()
         },
         3.0,
-        _options(6000),
+        precise(6000),
     ),
     Case(
         "msl_Mechanics_Rotational_Backlash",
         Backlash,
         _relative({"elastoBacklash": "backlash", "springDamper": "spring_damper"}, "phi_rel", "w_rel"),
         1.0,
-        _options(2000),
+        precise(2000),
     ),
     Case(
         "msl_Mechanics_Translational_ElastoGap",
@@ -203,14 +199,14 @@ _CASES = (
             "springDamper2.s_rel": "spring_damper2.s_rel",
         },
         5.0,
-        _options(1000),
+        precise(1000),
     ),
     Case(
         "msl_Mechanics_Translational_Oscillator",
         Oscillator,
         _relative({"damper1": "damper1"}, "s_rel", "v_rel") | _relative({"mass1": "mass1"}, "s", "v"),
         1.0,
-        _options(2000),
+        precise(2000),
     ),
 )
 CASES: dict[str, Case] = {case.name: case for case in _CASES}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import pi
 
-from arthur_acausal import Component, Equations, SolverOptions, connect, start
+from arthur_acausal import Component, Equations, connect, start
 from arthur_acausal.components.blocks import Constant, Pulse, Ramp, Sine, Step
 from arthur_acausal.components.rotational import (
     BearingFriction,
@@ -25,7 +25,7 @@ from arthur_acausal.components.rotational import (
     TorqueSource,
 )
 from arthur_acausal.components.translational import QuadraticForce, SlidingMass
-from arthur_acausal.models.conformance.case import Case
+from arthur_acausal.models.conformance.case import Case, precise
 
 
 class CoupledClutches(Component):
@@ -190,10 +190,6 @@ class RollingWheel(Component):
         yield connect(self.mass.flange_b, self.air.flange)
 
 
-def _options(intervals: int) -> SolverOptions:
-    return SolverOptions(rtol=1e-8, intervals=intervals)
-
-
 def _named(names: dict[str, str], *quantities: str) -> dict[str, str]:
     """Reference name -> path, for the same quantities of several elements."""
     return {f"{theirs}.{q}": f"{ours}.{q}" for theirs, ours in names.items() for q in quantities}
@@ -214,33 +210,33 @@ _CASES = (
         | _named(_CLUTCHES, "phi_rel", "w_rel")
         | {f"{t}.{theirs}": f"{o}.{ours}" for t, o in _CLUTCHES.items() for theirs, ours in _MODES.items()},
         1.5,
-        _options(3000),
+        precise(3000),
     ),
-    Case("msl_Mechanics_Rotational_LossyGearDemo1", LossyDrive, _GEAR, 0.5, _options(2000)),
+    Case("msl_Mechanics_Rotational_LossyGearDemo1", LossyDrive, _GEAR, 0.5, precise(2000)),
     Case(
         "msl_Mechanics_Rotational_LossyGearDemo2",
         LossyDriveWithBearing,
         _GEAR | {f"bearingFriction.{theirs}": f"bearing.{ours}" for theirs, ours in _MODES.items()},
         0.5,
-        _options(2000),
+        precise(2000),
     ),
-    Case("msl_Mechanics_Rotational_LossyGearDemo3", Undriven, _GEAR, 1.0, _options(2000)),
-    Case("msl_Mechanics_Rotational_OneWayClutch", FreewheelDrive, _FREEWHEEL, 2.0, _options(4000)),
-    Case("msl_Mechanics_Rotational_OneWayClutchDisengaged", FreewheelLoad, _FREEWHEEL, 2.0, _options(4000)),
+    Case("msl_Mechanics_Rotational_LossyGearDemo3", Undriven, _GEAR, 1.0, precise(2000)),
+    Case("msl_Mechanics_Rotational_OneWayClutch", FreewheelDrive, _FREEWHEEL, 2.0, precise(4000)),
+    Case("msl_Mechanics_Rotational_OneWayClutchDisengaged", FreewheelLoad, _FREEWHEEL, 2.0, precise(4000)),
     Case(
         "msl_Mechanics_Rotational_ElasticBearing",
         ElasticBearing,
         _named({"load": "load", "shaft": "shaft"}, "phi", "w")
         | _named({"springDamper": "mount"}, "phi_rel", "w_rel"),
         10.0,
-        _options(5000),
+        precise(5000),
     ),
     Case(
         "msl_Mechanics_Rotational_RollingWheel",
         RollingWheel,
         _named({"inertia": "inertia"}, "phi", "w") | _named({"mass": "mass"}, "s", "v"),
         5.0,
-        _options(2000),
+        precise(2000),
     ),
 )
 CASES: dict[str, Case] = {case.name: case for case in _CASES}

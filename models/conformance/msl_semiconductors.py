@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from arthur_acausal import Component, Equations, Real, SolverOptions, connect, parameter, start
+from arthur_acausal import Component, Equations, Real, connect, parameter, start
 from arthur_acausal.components.blocks import Not, Pulse, TimeTable
 from arthur_acausal.components.electrical import (
     NMOS,
@@ -32,7 +32,7 @@ from arthur_acausal.components.electrical import (
     VoltageSensor,
 )
 from arthur_acausal.components.thermal import FixedTemperature, HeatCapacitor, ThermalConductor
-from arthur_acausal.models.conformance.case import Case
+from arthur_acausal.models.conformance.case import Case, precise
 
 
 class Transistor(Component):
@@ -374,20 +374,16 @@ class CauerLowPassSC(CauerLowPassOPV):
         super().resistors(lambda sign: SwitchedCapacitor(positive=sign > 0))
 
 
-def _options(intervals: int) -> SolverOptions:
-    return SolverOptions(rtol=1e-8, intervals=intervals)
-
-
 _E = "msl_Electrical_Analog_"
 _CASES = (
-    Case(f"{_E}DifferenceAmplifier", DifferenceAmplifier, {}, 1e-8, _options(2000)),
-    Case(f"{_E}NandGate", NandGate, {}, 1e-7, _options(5000)),
-    Case(f"{_E}HeatingMOSInverter", HeatingMOSInverter, {}, 5.0, _options(5000)),
-    Case(f"{_E}HeatingNPN_NORGate", HeatingNPNGate, {}, 200.0, _options(5000)),
-    Case(f"{_E}HeatingPNP_NORGate", HeatingPNPGate, {}, 200.0, _options(5000)),
-    Case(f"{_E}CharacteristicThyristors", CharacteristicThyristors, {}, 6.0, _options(5000)),
-    Case(f"{_E}CauerLowPassOPV", CauerLowPassOPV, {}, 60.0, _options(5000)),
-    Case(f"{_E}CauerLowPassOPVWithoutNodes", CauerLowPassOPV, {}, 60.0, _options(5000)),
-    Case(f"{_E}CauerLowPassSC", CauerLowPassSC, {}, 60.0, _options(10000)),
+    Case(f"{_E}DifferenceAmplifier", DifferenceAmplifier, {}, 1e-8, precise(2000)),
+    Case(f"{_E}NandGate", NandGate, {}, 1e-7, precise(5000)),
+    Case(f"{_E}HeatingMOSInverter", HeatingMOSInverter, {}, 5.0, precise(5000)),
+    Case(f"{_E}HeatingNPN_NORGate", HeatingNPNGate, {}, 200.0, precise(5000)),
+    Case(f"{_E}HeatingPNP_NORGate", HeatingPNPGate, {}, 200.0, precise(5000)),
+    Case(f"{_E}CharacteristicThyristors", CharacteristicThyristors, {}, 6.0, precise(5000)),
+    Case(f"{_E}CauerLowPassOPV", CauerLowPassOPV, {}, 60.0, precise(5000)),
+    Case(f"{_E}CauerLowPassOPVWithoutNodes", CauerLowPassOPV, {}, 60.0, precise(5000)),
+    Case(f"{_E}CauerLowPassSC", CauerLowPassSC, {}, 60.0, precise(10000)),
 )
 CASES: dict[str, Case] = {case.name: case for case in _CASES}

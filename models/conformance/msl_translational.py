@@ -6,7 +6,7 @@ Association and contributors, BSD-3-Clause.
 
 from __future__ import annotations
 
-from arthur_acausal import Component, Equations, SolverOptions, connect, start
+from arthur_acausal import Component, Equations, connect, start
 from arthur_acausal.components import translational
 from arthur_acausal.components.blocks import Constant, Sine, Step
 from arthur_acausal.components.translational import (
@@ -24,7 +24,7 @@ from arthur_acausal.components.translational import (
     Spring,
     SpringDamper,
 )
-from arthur_acausal.models.conformance.case import Case
+from arthur_acausal.models.conformance.case import Case, precise
 
 
 class Accelerate(Component):
@@ -188,10 +188,6 @@ class PreLoad(Component):
         yield connect(self.friction.flange_a, self.fixed.flange)
 
 
-def _options(intervals: int) -> SolverOptions:
-    return SolverOptions(rtol=1e-8, intervals=intervals)
-
-
 def _same(quantities: tuple[str, ...], *names: str) -> dict[str, str]:
     return {f"{name}.{q}": f"{name}.{q}" for name in names for q in quantities}
 
@@ -212,7 +208,7 @@ _CASES = (
         Accelerate,
         _same(_MOTION, "accelerate", "mass"),
         1.0,
-        _options(1000),
+        precise(1000),
     ),
     Case(
         "msl_Mechanics_Translational_Brake",
@@ -220,7 +216,7 @@ _CASES = (
         _same(_MOTION, "mass1", "mass2")
         | {f"{b}.{theirs}": f"{b}.{ours}" for b in ("brake", "brake1") for theirs, ours in _MODES.items()},
         2.0,
-        _options(2000),
+        precise(2000),
     ),
     Case(
         "msl_Mechanics_Translational_Damper",
@@ -228,29 +224,29 @@ _CASES = (
         _same(_RELATIVE, "damper1", "damper2")
         | {f"springDamper3.{q}": f"spring_damper3.{q}" for q in _RELATIVE},
         1.0,
-        _options(2000),
+        precise(2000),
     ),
     Case(
         "msl_Mechanics_Translational_InitialConditions",
         InitialConditions,
         _same(_MOTION, "m1", "m3") | _same(_RELATIVE, "sd1", "sd2"),
         5.0,
-        _options(10000),
+        precise(10000),
     ),
     Case(
         "msl_Mechanics_Translational_WhyArrows",
         WhyArrows,
         _same(_MOTION, "mass1", "inertia2"),
         1.0,
-        _options(1000),
+        precise(1000),
     ),
-    Case("msl_Mechanics_Translational_Sensors", Sensors, _same(_MOTION, "mass"), 1.0, _options(2000)),
+    Case("msl_Mechanics_Translational_Sensors", Sensors, _same(_MOTION, "mass"), 1.0, precise(2000)),
     Case(
         "msl_Mechanics_Translational_PreLoad",
         PreLoad,
         {f"{t}.{q}": f"{o}.{q}" for t, o in _PRELOAD.items() for q in _RELATIVE},
         100.0,
-        _options(2000),
+        precise(2000),
     ),
 )
 CASES: dict[str, Case] = {case.name: case for case in _CASES}

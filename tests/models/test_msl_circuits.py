@@ -11,16 +11,16 @@ from scipy.integrate import solve_ivp
 
 from arthur_acausal import Solution, SolverOptions, simulate
 from arthur_acausal.models.conformance import msl_circuits as circuits
+from arthur_acausal.models.conformance import msl_resonance
 from arthur_acausal.models.conformance.case import Case
 
+CASES = circuits.CASES | msl_resonance.CASES
 Floats = NDArray[np.float64]
 PRECISE = SolverOptions(rtol=1e-8, intervals=1000)
 
 
 def run(name: str, stop_time: float) -> Solution:
-    return simulate(
-        circuits.CASES[f"msl_Electrical_Analog_{name}"].model(), stop_time=stop_time, options=PRECISE
-    )
+    return simulate(CASES[f"msl_Electrical_Analog_{name}"].model(), stop_time=stop_time, options=PRECISE)
 
 
 def chua(t: float, x: Floats) -> list[float]:

@@ -9,9 +9,9 @@ from scipy.integrate import solve_ivp
 from arthur_acausal import Component, Equations, Solution, SolverOptions, connect, simulate, start
 from arthur_acausal.components.blocks import Ramp
 from arthur_acausal.components.translational import ForceSource, MassWithStopAndFriction
-from arthur_acausal.models.conformance import msl_drives, msl_mechanics, msl_thermal
+from arthur_acausal.models.conformance import msl_drives, msl_losses, msl_mechanics, msl_thermal
 
-CASES = msl_drives.CASES | msl_thermal.CASES
+CASES = msl_drives.CASES | msl_losses.CASES | msl_thermal.CASES
 PRECISE = SolverOptions(rtol=1e-8, intervals=1000)
 
 
