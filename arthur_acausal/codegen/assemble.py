@@ -213,11 +213,6 @@ def add_derivatives(dae: StructuredDAE, assembly: Assembly) -> None:
         values.append(ca.jtimes(value, states, rates) + ca.jacobian(value, a.t))
 
 
-def variable_values(dae: StructuredDAE, assembly: Assembly) -> dict[int, SX]:
-    """Return the value of every root variable that is neither zero nor an input, by its number."""
-    return {node.variable: assembly.node_values[k] for k, node in enumerate(dae.nodes.all) if node.order == 0}
-
-
 def reinit_target(dae: StructuredDAE, variable: int, y_place: dict[int, int], text: str) -> tuple[int, int]:
     """Return (place in y, sign) of the state that a reinit changes. Raises StructureError if it is no state."""
     ref = dae.nodes.of_variable(variable)

@@ -130,6 +130,4 @@ def _born(pid: int) -> float | None:
     try:
         return float(psutil.Process(pid).create_time())
     except (psutil.NoSuchProcess, ValueError):
-        return None
-    except psutil.AccessDenied:
-        return 0.0
+        return None  # what is there but cannot be asked raises: it is no dead process

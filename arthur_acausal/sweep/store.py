@@ -189,7 +189,7 @@ def table(folder: Path) -> pandas.DataFrame | None:
         parts.append(pd.DataFrame(rows))
     if not parts:
         return None
-    frame = parts[0] if len(parts) == 1 else pd.concat(parts, ignore_index=True)
+    frame: Any = parts[0] if len(parts) == 1 else pd.concat(parts, ignore_index=True)
     frame = frame.drop_duplicates("run", keep="last").sort_values("run", kind="stable")
     last = [name for name in LAST if name in frame]
     return frame[[*(name for name in frame if name not in last), *last]].reset_index(drop=True)

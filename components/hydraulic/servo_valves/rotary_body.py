@@ -52,7 +52,9 @@ class RotaryBody(Component):
     L_B: Real = parameter("m", default=12.7e-3, min=0.0, description="line to B; assumed")
     rho_c: Real = parameter("kg/m^3", default=2700.0, min=0.0, description="density of the cylinder")
     mu_k: Real = parameter("1", default=0.05, min=0.0, description="friction coefficient, mixed film")
-    mu_s: Real = parameter("1", default=0.2, min=0.0, description="static friction, 0.1 to 0.3")
+    mu_s: Real = parameter(
+        "1", default=0.2, min=0.0, description="static friction, 0.1 to 0.3: of breakaway_torque only"
+    )
     C_d: Real = parameter("1", default=0.9, min=0.0, description="discharge coefficient; assumed")
     C_v: Real = parameter("1", default=0.98, min=0.0, description="velocity coefficient; assumed")
     C_c: Real = parameter("1", default=lambda self: self.C_d / self.C_v, min=0.0, description="3.10")
