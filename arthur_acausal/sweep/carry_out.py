@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
@@ -83,10 +83,8 @@ def carry_out(plan: Plan, folder: Path, how: How, watch: Watch | None = None) ->
     stores.make_folder(folder)
     with Lock(folder):
         store = _opened(plan, folder, how)
-        try:
+        with closing(store):
             return _fill(plan, store, how, watch, begun)
-        finally:
-            store.close()
 
 
 def _fill(plan: Plan, store: Store, how: How, watch: Watch | None, begun: float) -> Tally:

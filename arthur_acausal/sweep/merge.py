@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 
 from arthur_acausal.errors import UsageError
@@ -33,10 +34,10 @@ def merge(folders: Sequence[Path], target: Path) -> int:
         found = differences(store.about["specification"], abouts[0]["specification"])
         if found:
             raise UsageError(f"{target} holds another sweep", cause="; ".join(found))
-        for folder, about in zip(folders, abouts, strict=True):
-            _copy(folder, about, store)
-        store.fold()
-        store.close()
+        with closing(store):
+            for folder, about in zip(folders, abouts, strict=True):
+                _copy(folder, about, store)
+            store.fold()
         return len(stores.done(target))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -108,9 +108,9 @@ def evaluations(
         told["trajectories"] = {"variables": [], "units": [], "time": []}
         store = Store.create(folder, told)
         evaluate = Evaluations(plan, unknowns, store, start, times)
-        try:
-            yield unknowns, evaluate
-        finally:
-            store.describe({**store.about, "runs": evaluate.count})
-            store.fold()
-            store.close()
+        with closing(store):
+            try:
+                yield unknowns, evaluate
+            finally:
+                store.describe({**store.about, "runs": evaluate.count})
+                store.fold()
