@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from arthur_acausal.result.verify import Verification
     from arthur_acausal.solve.inputs import Input
     from arthur_acausal.solve.options import SolverOptions
+    from arthur_acausal.solve.stepping import Stepper
+    from arthur_acausal.solve.trajectory import Trajectory
 
 
 @dataclass(frozen=True)
@@ -99,6 +101,35 @@ class Translation:
         )
         solution.powers = Powers(self.flat, self.structured)
         return solution
+
+    def stepper(
+        self,
+        stop_time: float,
+        *,
+        start_time: float = 0.0,
+        tolerance: float | None = None,
+        parameters: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, Input] | None = None,
+        start: Mapping[str, Any] | None = None,
+        options: SolverOptions | None = None,
+        begin: Trajectory | None = None,
+    ) -> Stepper:
+        """Begin a run that its caller takes forward, setting inputs in between; the arguments are those of simulate.
+
+        ``begin``: that of another stepper, with the same parameters and start values: nothing is solved for again.
+        """
+        from arthur_acausal.solve.stepping import Stepper
+
+        return Stepper(
+            self.dae,
+            stop_time=stop_time,
+            start_time=start_time,
+            options=_options(options, tolerance),
+            inputs=inputs,
+            parameters=parameters,
+            start=start,
+            begin=begin,
+        )
 
     def adopt(self, solution: Solution) -> Solution:
         """Let a solution that was read from a file know this model's connectors, for `Solution.power`; return it.

@@ -54,6 +54,10 @@ class Recovery:
         return (self.observed.size1_in(7), self.observed.size1_in(8)) if self.calls else (0, 0)
 
     @cached_property
+    def _completion(self) -> Completion:
+        return Completion(self.calls, self.external_sizes)
+
+    @cached_property
     def number(self) -> dict[str, int]:
         """Path -> number."""
         return {path: i for i, path in enumerate(self.paths)}
@@ -124,7 +128,7 @@ class Recovery:
             same = np.repeat(p.reshape(-1, 1), count, axis=1)
             arguments = (t[part].reshape(1, -1), y[part].T, yp[part].T, same, u[part].T, z[part].T, m[part].T)
             need = Need.all(self.calls) if self.external[wanted].any() else None
-            complete = Completion(self.calls, self.external_sizes)(arguments, need)
+            complete = self._completion(arguments, need)
             values = np.asarray(self.observed.map(count)(*complete), dtype=float)
             out[part] = values[wanted].T
         return out

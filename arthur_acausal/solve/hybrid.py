@@ -20,7 +20,7 @@ from arthur_acausal.solve.initialize import adopt, initialize
 from arthur_acausal.solve.inputs import Input, Inputs
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.options import SolverOptions
-from arthur_acausal.solve.protocol import DAE, FloatArray
+from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray
 from arthur_acausal.solve.sampled import Samples
 from arthur_acausal.solve.schedule import Schedule, affine_relations
 from arthur_acausal.solve.statistics import Statistics
@@ -80,6 +80,7 @@ class HybridRun:
         self._events: list[Event] = []
         self._ended: tuple[Status, str] | None = None
         self._stepping = self._affected = False
+        self._until = stop_time
         self._starts = 0
 
     def initialize(self) -> None:
@@ -101,14 +102,33 @@ class HybridRun:
 
     def integrate(self) -> Trajectory:
         """Run to the end."""
+        self.depart()
+        while self._ended is None:
+            self._advance()
+        return self.trajectory(*self._ended)
+
+    def depart(self) -> None:
+        """Make ready to leave the start."""
         self._prepare()
         if self._evaluator.external is not None:
             self._evaluator.external.exact = False
         if self._ended is None:
             self._event({})  # what is true just after the start but not at it
-        while self._ended is None:
+
+    def advance(self, until: float) -> None:
+        """Integrate up to a time, s, unless the run ends before."""
+        self._until = min(until, self._stop)
+        while self._ended is None and self._until - self._t > self._resolution:
             self._advance()
-        return self.trajectory(*self._ended)
+
+    def impose(self, inputs: Mapping[int, float]) -> None:
+        """Let inputs that do not vary by themselves jump to other values at the present time."""
+        u = self._evaluator.u
+        changed = [index for index, value in inputs.items() if u[index] != value]
+        for index in changed:
+            u[index] = inputs[index]
+        if changed and self._ended is None:
+            self._event({}, jump=True)
 
     def _prepare(self) -> None:
         dae, options = self._dae, self._options
@@ -141,7 +161,7 @@ class HybridRun:
     def _advance(self) -> None:
         """Integrate over one stretch and handle what ends it."""
         evaluator, t, near = self._evaluator, self._t, self._resolution
-        end = min(self._stop, self._inputs.next_jump(t + near), self._schedule.next(), self._samples.next())
+        end = min(self._until, self._inputs.next_jump(t + near), self._schedule.next(), self._samples.next())
         first, last = np.searchsorted(self._grid, [t + near, end - near])
         times = np.concatenate([[t], self._grid[first:last], [end]])
         self._roots.restart(t + near)
@@ -273,6 +293,16 @@ class HybridRun:
         self._recorder.add(
             ev.t.copy(), ev.y[None].copy(), ev.yp[None].copy(), ev.u.copy(), ev.z.copy(), ev.m.copy()
         )
+
+    @property
+    def ended(self) -> tuple[Status, str] | None:
+        """How the run has ended; None while it can go on."""
+        return self._ended
+
+    @property
+    def evaluator(self) -> Evaluator:
+        """The model's functions at the present values."""
+        return self._evaluator
 
     def trajectory(self, status: Status, message: str) -> Trajectory:
         """What has been computed so far."""

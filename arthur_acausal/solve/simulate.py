@@ -50,14 +50,14 @@ def simulate(
     SolverInterrupted : Ctrl-C; it holds what was computed.
     UsageError : an argument cannot be used.
     """
-    _check_times(start_time, stop_time)
+    check_times(start_time, stop_time)
     chosen, first, last = options or SolverOptions(), float(start_time), float(stop_time)
     run = HybridRun(dae, first, last, chosen, inputs or {}, parameters, start, progress, grid, begin)
     run.initialize()
     try:
         return run.integrate()
     except ArthurError as error:
-        failure = error if isinstance(error, SolverFailure) else _as_failure(error)
+        failure = error if isinstance(error, SolverFailure) else as_failure(error)
         failure.trajectory = run.trajectory("failed", str(failure))
         raise failure from None
     except KeyboardInterrupt:
@@ -76,19 +76,19 @@ def initial_point(
     progress: Progress | None = None,
 ) -> Trajectory:
     """Initialise only: the consistent values at start_time, as a trajectory of one row; arguments as simulate."""
-    _check_times(start_time, stop_time)
+    check_times(start_time, stop_time)
     chosen, begin, end = options or SolverOptions(), float(start_time), float(stop_time)
     run = HybridRun(dae, begin, end, chosen, inputs or {}, parameters, start, progress)
     run.initialize()
     return run.trajectory("finished", "")
 
 
-def _check_times(start_time: float, stop_time: float) -> None:
+def check_times(start_time: float, stop_time: float) -> None:
     if not (np.isfinite(start_time) and np.isfinite(stop_time) and stop_time > start_time):
         raise UsageError(f"stop_time {stop_time} is not a finite time after start_time {start_time}")
 
 
-def _as_failure(error: ArthurError) -> SolverFailure:
+def as_failure(error: ArthurError) -> SolverFailure:
     """An error at an event, as the end of the run that it is."""
     return SolverFailure(
         error.message,

@@ -29,6 +29,7 @@ LAYERS = (
     "analysis",
     "exchange",
     "api",
+    "learning",
     "components",
     "mujoco",
     "models",
@@ -42,6 +43,7 @@ LAYERS = (
 # else imports them inside the function that needs them; so do these layers where they are imported early.
 HEAVY = {
     "distributed": set[str](),
+    "gymnasium": {"learning"},
     "matplotlib": {"result"},
     "mujoco": {"mujoco"},
     "pandas": {"result"},
