@@ -17,6 +17,7 @@ from arthur_acausal.errors import SimulationError
 from arthur_acausal.solve.consistent import ConsistentSystem
 from arthur_acausal.solve.diagnosis import listed
 from arthur_acausal.solve.initial_failure import failure
+from arthur_acausal.solve.law import NEARBY, Law
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.newton import Index, Solve
 from arthur_acausal.solve.options import SolverOptions
@@ -25,8 +26,6 @@ from arthur_acausal.solve.trajectory import Event
 
 AFTER = "check what reinit sets, and that the equations have a solution after the event"
 DIFFERENCE = 1e-7  # forward difference, relative to the time in which a state moves by its own magnitude
-NEARBY = 1e-3  # relative distance of the point where a change of law shows that the event itself hides
-UNMOVED = 1e-3  # part of the tolerance by which what a sample sets may move the unknowns at once
 TRUST = 10.0  # a relation that IDA found to change has changed while g is within so many tolerances of zero
 TRUSTED_PASSES = (
     10  # modes that go round because one of them is held so: from then on the present values decide
@@ -71,8 +70,7 @@ class EventIteration:
         self._scheduled = scheduled
         self._factors: Solve | None = None
         self._scale = np.zeros(len(dae.relations))
-        self._nearby = NEARBY * np.random.default_rng(0).uniform(0.5, 1.0, 2 * dae.n + 1)
-        self._law = np.zeros(2 * dae.n)
+        self._law = Law(dae, evaluator, self._system.nominal, options.rtol)
         self._modes_before = np.zeros(0, dtype=bool)
         self._sampled = False
 
@@ -91,7 +89,7 @@ class EventIteration:
         evaluator, outcome = self._evaluator, Outcome(affected=inputs_jump)
         self._modes_before = before = evaluator.m > 0.5
         self._sampled = sample is not None
-        self._law = self._laws()
+        self._law.keep()
         if sample is not None:
             sample()
         pending, reset = inputs_jump or not np.array_equal(evaluator.z, evaluator.zp), False
@@ -106,7 +104,8 @@ class EventIteration:
             evaluator.m[:] = modes
             rising = self._rising()
             pending |= moving.size > 0
-            if number and not pending and not rising.any():
+            quiet = number > 0 and not moving.size and not rising.any()
+            if quiet and not pending:
                 break
             if pending and self._has_algebraic and rising.any():
                 self._follow(outcome, inputs_jump)  # what the `when` clauses read must hold in the new modes
@@ -120,6 +119,8 @@ class EventIteration:
                 self._follow(outcome, was_reset or inputs_jump)
             pending = not np.array_equal(evaluator.z, evaluator.zp)
             evaluator.zp[:] = evaluator.z
+            if quiet and not pending:  # the next pass would see what this one has seen
+                break
         else:
             raise self._unsettled(moving)
         self._relation_events(before, flagged, outcome)
@@ -131,33 +132,13 @@ class EventIteration:
         Where a sample only bends the course of F, as a first-order hold does, the values are consistent as they are:
         the integration goes on, and its error test sees the bend.
         """
-        law = self._laws()
-        if changed or not (self._bends(law) or np.array_equal(law, self._law, equal_nan=True)):
+        evaluator = self._evaluator
+        if changed or self._law.changed(
+            bends=self._sampled and np.array_equal(evaluator.m > 0.5, self._modes_before)
+        ):
             self._solve(outcome)
             outcome.affected = True
-            law = self._laws()
-        self._law = law
-
-    def _bends(self, law: FloatArray) -> bool:
-        """Whether a sample has left F at the present values as it was, in the same modes; ``law``: as it is now."""
-        if not self._sampled or not np.array_equal(self._evaluator.m > 0.5, self._modes_before):
-            return False
-        here, near = np.split(self._law, 2)
-        allowed = UNMOVED * self._options.rtol * np.abs(near - here) / NEARBY
-        return bool(np.all(np.abs(law[: here.size] - here) <= allowed))
-
-    def _laws(self) -> FloatArray:
-        """F at the present values and near them: where a law has a kink, both sides of it agree at the event itself."""
-        evaluator, n = self._evaluator, self._dae.n
-        t, y, yp = float(evaluator.t[0]), evaluator.y.copy(), evaluator.yp.copy()
-        here = evaluator.residual().copy()
-        magnitude = np.maximum(np.abs(y), self._system.nominal)
-        evaluator.t[0] = t + self._nearby[-1] * max(abs(t), 1.0)
-        evaluator.y[:] += self._nearby[:n] * magnitude
-        evaluator.yp[:] += self._nearby[n : 2 * n] * np.maximum(np.abs(yp), magnitude)
-        near = evaluator.residual().copy()
-        evaluator.t[0], evaluator.y[:], evaluator.yp[:] = t, y, yp
-        return np.concatenate([here, near])
+        self._law.keep()
 
     def make_consistent(self) -> None:
         """Solve for algebraic variables and derivatives where no event has: after interpolation they are only near."""
@@ -203,11 +184,10 @@ class EventIteration:
         if not evaluator.m.size:
             return np.zeros(0, dtype=bool)
         t, y = float(evaluator.t[0]), evaluator.y.copy()
-        g = evaluator.roots().copy()
-        evaluator.y[:] += self._nearby[: y.size] / NEARBY * np.maximum(np.abs(y), self._system.nominal)
-        elsewhere = np.nan_to_num(evaluator.roots(), nan=0.0, posinf=0.0, neginf=0.0)
-        self._scale = np.maximum(self._scale, np.maximum(np.abs(g), np.abs(elsewhere - g)))
-        evaluator.y[:] = y
+        if (
+            flagged or not self._scale.any()
+        ):  # of time alone: g is zero at the event, but was not at the start
+            self._rescale()
         evaluator.t[0] = t + resolution
         evaluator.y[:] += resolution * evaluator.yp
         g = evaluator.roots().copy()
@@ -217,6 +197,15 @@ class EventIteration:
             if abs(g[k]) <= trust * self._options.rtol * self._scale[k]:
                 truth[k] = value
         return truth
+
+    def _rescale(self) -> None:
+        """Magnitudes of the relations' g, from here and from values as far away as the unknowns are large."""
+        evaluator, y = self._evaluator, self._evaluator.y.copy()
+        g = evaluator.roots().copy()
+        evaluator.y[:] += self._law.away / NEARBY * np.maximum(np.abs(y), self._system.nominal)
+        elsewhere = np.nan_to_num(evaluator.roots(), nan=0.0, posinf=0.0, neginf=0.0)
+        self._scale = np.maximum(self._scale, np.maximum(np.abs(g), np.abs(elsewhere - g)))
+        evaluator.y[:] = y
 
     def _rising(self) -> BoolArray:
         """Conditions that have become true since the last pass."""
