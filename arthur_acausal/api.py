@@ -256,11 +256,19 @@ class Translation:
         """The system as CasADi expressions, which can be differentiated further."""
         return generate(self.structured, compile="never")
 
-    def to_bytes(self) -> bytes:
-        """Return the compiled system for other processes of the same user, see `arthur_acausal.codegen.portable`."""
+    def to_bytes(self, states: tuple[frozenset[int], bool] | None = None) -> bytes:
+        """Return the compiled system for other processes of the same user, see `arthur_acausal.codegen.portable`.
+
+        ``states``: for another set of states, by its dummy derivatives and whether a run is continued with it, as
+        `arthur_acausal.result.chain` asks for it.
+        """
         from arthur_acausal.codegen.portable import to_bytes
 
-        return to_bytes(self.dae, self._plain)
+        if states is None:
+            return to_bytes(self.dae, self._plain)
+        dummies, continuation = states
+        plain = generate(transform(self.flat, dummies), compile="never", continuation=continuation)
+        return to_bytes(self._variant(dummies, continuation), plain)
 
     def verify(self, solution: Solution) -> Verification:
         """Evaluate every raw equation of the model, before any elimination, on a solution of it."""

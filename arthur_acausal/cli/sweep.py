@@ -193,7 +193,7 @@ def _confirm(plan: Plan, request: Request) -> None:
 
 def dry_run(plan: Plan, how: How) -> str:
     """Return the table of runs, and what they will take: the first one is tried for that."""
-    from arthur_acausal.sweep.execute import execute
+    from arthur_acausal.sweep.supply import here, supplied
 
     runs = plan.runs
     if not runs:
@@ -207,8 +207,8 @@ def dry_run(plan: Plan, how: How) -> str:
             rows.append(["..."] + [""] * len(names))
         values = plan.task(run)[1]
         rows.append([str(run.number), *(_shown(values.get(name, "")) for name in names)])
-    execute(task.job, task.values)  # the first one also loads libraries
-    trial = execute(task.job, task.values)
+    pending = iter([task, task])  # the first one also loads libraries
+    *_, (_, trial) = supplied(here)(lambda: next(pending, None))
     workers = how.workers or os.cpu_count() or 1
     lines = [table(rows, "r" * len(rows[0]), indent=0), ""]
     if trial.status not in ("ok", "terminated"):

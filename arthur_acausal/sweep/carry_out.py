@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,6 +18,7 @@ from arthur_acausal.sweep.lock import Lock
 from arthur_acausal.sweep.plan import Plan
 from arthur_acausal.sweep.specification import differences
 from arthur_acausal.sweep.store import Row, Store
+from arthur_acausal.sweep.supply import Start, supplied
 from arthur_acausal.sweep.task import Task
 
 
@@ -205,9 +206,6 @@ def about(plan: Plan) -> dict[str, Any]:
     }
 
 
-Start = Callable[[Callable[[], "Task | None"]], Iterable[tuple[Task, Outcome]]]
-
-
 @contextmanager
 def backend(how: How, tasks: int) -> Iterator[Start]:
     """Give a function from where tasks come to what comes of them, carried out as ``how`` says."""
@@ -216,12 +214,12 @@ def backend(how: How, tasks: int) -> Iterator[Start]:
 
         workers = max(1, min(how.workers or os.cpu_count() or 1, tasks))
         with Crew(workers, how.timeout, how.retry) as crew:
-            yield crew.run
+            yield supplied(crew.run)
         return
     from arthur_acausal.sweep.cluster import connect, run_on_cluster
 
     client, close = connect(how.scheduler, how.workers)
     try:
-        yield lambda take: run_on_cluster(client, take, how.timeout, how.retry)
+        yield supplied(lambda take: run_on_cluster(client, take, how.timeout, how.retry))
     finally:
         close()

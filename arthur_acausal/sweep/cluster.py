@@ -10,8 +10,9 @@ from typing import Any
 
 from arthur_acausal.errors import UsageError
 from arthur_acausal.sweep.execute import Outcome, execute
-from arthur_acausal.sweep.job import Job, Values
+from arthur_acausal.sweep.job import Content, Job, Values
 from arthur_acausal.sweep.spawn import apart
+from arthur_acausal.sweep.supply import Take
 from arthur_acausal.sweep.task import Task
 
 AHEAD = 3  # tasks in flight for each thread of the cluster
@@ -50,7 +51,7 @@ def connect(scheduler: str, workers: int | None) -> tuple[Any, Callable[[], None
 
 
 def run_on_cluster(
-    client: Any, take: Callable[[], Task | None], timeout: float | None, retry: int
+    client: Any, take: Take, timeout: float | None, retry: int
 ) -> Iterator[tuple[Task, Outcome]]:
     """Yield what comes of each task, in the order in which they end; a bounded number is in flight."""
     distributed: Any = importlib.import_module("distributed")  # whose annotations are incomplete
@@ -68,7 +69,7 @@ def run_on_cluster(
     def submit(task: Task) -> None:
         digest = task.job.digest
         if digest not in sent:
-            sent[digest] = client.scatter((task.job.system, task.job.settings), broadcast=True, hash=False)
+            sent[digest] = client.scatter(task.job.content, broadcast=True, hash=False)
         future = client.submit(
             work, sent[digest], digest, task.values, timeout, pure=False, retries=0, key=None
         )
@@ -96,7 +97,7 @@ def run_on_cluster(
         send()
 
 
-def work(content: tuple[bytes, str], digest: str, values: Values, timeout: float | None) -> Outcome:
+def work(content: Content, digest: str, values: Values, timeout: float | None) -> Outcome:
     """Carry out one run on a worker; one at a time in a process, whatever threads it has."""
     with _ONE_AT_A_TIME:
         if digest not in _JOBS:

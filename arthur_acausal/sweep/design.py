@@ -95,12 +95,12 @@ def unit_samples(method: str, dimensions: int, count: int, seed: int) -> NDArray
 
     Those of "random" and "sobol" begin alike whatever the count, so that samples can be added later.
     """
-    from scipy.stats import qmc
-
     if dimensions == 0:
         return np.zeros((count, 0))
     if method == "random":
         return np.random.default_rng(seed).random((count, dimensions))
+    from scipy.stats import qmc  # takes a second to import
+
     if method == "lhs":
         return np.asarray(qmc.LatinHypercube(dimensions, rng=np.random.default_rng(seed)).random(count))
     sampler = qmc.Sobol(dimensions, scramble=True, rng=np.random.default_rng(seed))

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arthur_acausal.errors import ArthurError
-from arthur_acausal.sweep.job import Job, Signal, Values
+from arthur_acausal.sweep.job import Job, Signal, StateSet, Values
 
 if TYPE_CHECKING:
     from arthur_acausal.codegen.compiled import CompiledDAE
@@ -30,7 +30,8 @@ class Outcome:
 
     ``status``: "ok", "terminated" (the model ended it), "failed", "timeout" or "crashed"; ``error``: the message;
     ``notes``: what the solver tells besides, such as start values that nothing uses; ``trajectory`` (times,
-    variables), NaN where it did not get to; seconds of wall and of CPU.
+    variables), NaN where it did not get to; seconds of wall and of CPU. ``wants``: the set of states for which the run
+    needs a system that its job does not have; there is nothing else then.
     """
 
     status: str
@@ -44,6 +45,7 @@ class Outcome:
     cpu_s: float = 0.0
     engine: str = "ida"
     platform: str = ""
+    wants: StateSet | None = None
 
 
 class _Described:
@@ -54,6 +56,14 @@ class _Described:
 
     def audit_terms(self) -> Mapping[str, Any]:
         return self._terms
+
+
+class _WantedError(Exception):
+    """A run needs the system for a set of states that is not here."""
+
+    def __init__(self, states: StateSet) -> None:
+        super().__init__("another set of states")
+        self.states = states
 
 
 class _TimeUp(KeyboardInterrupt):
@@ -77,6 +87,8 @@ def execute(job: Job, values: Values, timeout: float | None = None) -> Outcome:
         if status == "timeout":
             error = f"stopped after {timeout:g} s of wall time"
         outcome = _reduced(job, solution, status, error)
+    except _WantedError as wanted:
+        return Outcome("unfinished", wants=wanted.states)
     except ArthurError as failed:
         outcome = Outcome("failed", str(failed))
     except Exception as failed:  # of the user's own functions
@@ -95,10 +107,11 @@ def _simulate(job: Job, values: Values, watch: Callable[[float], None]) -> tuple
     from arthur_acausal.result.simulated import Interrupted, run
     from arthur_acausal.solve.options import SolverOptions
 
+    loaded = system_of(job)
     inputs = {path: _signal(value) for path, value in {**job.inputs, **values.inputs}.items()}
     try:
         solution = run(
-            system_of(job),
+            loaded.dae,
             _Described(job.description, job.audit),
             start_time=job.start_time,
             stop_time=job.stop_time,
@@ -107,6 +120,7 @@ def _simulate(job: Job, values: Values, watch: Callable[[float], None]) -> tuple
             inputs=inputs,
             start={**job.start, **values.start},
             progress=watch,
+            variant=loaded.variant,
         )
     except SimulationError as error:
         return error.solution, "failed", str(error)
@@ -125,11 +139,25 @@ def _signal(value: float | Signal) -> Any:
     return value
 
 
-_LOADED: dict[str, CompiledDAE] = {}
+@dataclass(frozen=True, slots=True)
+class _Loaded:
+    """A job's compiled systems."""
+
+    dae: CompiledDAE
+    others: Mapping[StateSet, CompiledDAE]
+
+    def variant(self, dummies: frozenset[int], continuation: bool) -> CompiledDAE:
+        """Return the system for another set of states."""
+        if (dummies, continuation) not in self.others:
+            raise _WantedError((dummies, continuation))
+        return self.others[dummies, continuation]
 
 
-def system_of(job: Job) -> CompiledDAE:
-    """Return the job's compiled system; each process loads it once."""
+_LOADED: dict[str, _Loaded] = {}
+
+
+def system_of(job: Job) -> _Loaded:
+    """Return the job's compiled systems; each process loads them once."""
     import arthur_acausal.result.simulated  # noqa: F401  # loaded here, not in the first run
     from arthur_acausal.codegen.portable import from_bytes
     from arthur_acausal.solve.ida import load_ida
@@ -140,7 +168,8 @@ def system_of(job: Job) -> CompiledDAE:
                 sys.path.append(folder)
         while len(_LOADED) >= KEPT_SYSTEMS:
             del _LOADED[next(iter(_LOADED))]
-        _LOADED[job.digest] = from_bytes(job.system, trusted=job.trusted)
+        others = {states: from_bytes(data, trusted=job.trusted) for states, data in job.others.items()}
+        _LOADED[job.digest] = _Loaded(from_bytes(job.system, trusted=job.trusted), others)
         load_ida()
     return _LOADED[job.digest]
 

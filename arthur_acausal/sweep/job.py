@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -13,6 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arthur_acausal.sweep.reductions import Reduction
+
+StateSet = tuple[frozenset[int], bool]
+"""Dummy derivatives, by the numbers of the translation, and whether a run is continued with them."""
+
+
+Content = tuple[bytes, str, Mapping[StateSet, bytes]]
 
 
 @dataclass(frozen=True)
@@ -41,6 +47,7 @@ class Job:
     times : of the trajectories in place of ``interval``, s.
     trusted : modules of the user that sampled functions and reductions may come from.
     folders : where these modules are found.
+    others : the compiled system for further sets of states, as far as runs have asked for them.
     """
 
     system: bytes = field(repr=False)
@@ -59,6 +66,7 @@ class Job:
     times: tuple[float, ...] = ()
     trusted: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
+    others: Mapping[StateSet, bytes] = field(default_factory=dict, repr=False)
 
     @cached_property
     def grid(self) -> NDArray[np.float64]:
@@ -70,25 +78,37 @@ class Job:
 
     @cached_property
     def settings(self) -> str:
-        """All but the system, as JSON."""
-        data = asdict(self)
-        del data["system"]
+        """All but the systems, as JSON."""
+        data = asdict(replace(self, system=b"", others={}))
+        del data["system"], data["others"]
         return json.dumps(data, sort_keys=True)
+
+    @cached_property
+    def base(self) -> str:
+        """A hash of the content, without `others`."""
+        return hashlib.sha256(self.system + self.settings.encode()).hexdigest()
 
     @cached_property
     def digest(self) -> str:
         """What the job is known by: a hash of its content."""
-        return hashlib.sha256(self.system + self.settings.encode()).hexdigest()
+        return "+".join(
+            [self.base, *sorted(hashlib.sha256(data).hexdigest() for data in self.others.values())]
+        )
+
+    @property
+    def content(self) -> Content:
+        """All of it, see `restored`."""
+        return self.system, self.settings, self.others
 
     @classmethod
-    def restored(cls, system: bytes, settings: str) -> Job:
-        """Return the job again from what `system` and `settings` gave."""
+    def restored(cls, system: bytes, settings: str, others: Mapping[StateSet, bytes]) -> Job:
+        """Return the job again from its `content`."""
         data = json.loads(settings)
         data["variables"], data["times"] = tuple(data["variables"]), tuple(data["times"])
         data["reductions"] = tuple(Reduction(**r) for r in data["reductions"])
         data["trusted"], data["folders"] = tuple(data["trusted"]), tuple(data["folders"])
         data["inputs"] = {path: _input(value) for path, value in data["inputs"].items()}
-        return cls(system=system, **data)
+        return cls(system=system, others=others, **data)
 
 
 @dataclass(frozen=True, slots=True)

@@ -76,7 +76,7 @@ class Plan:
         """
         prepared = self.prepared(run)
         found = self._values(prepared, run)
-        return Task(run.number, prepared.job, found.values), found.columns
+        return Task(run.number, prepared.job, found.values, prepared.translation.to_bytes), found.columns
 
     def _structure(self, run: Run) -> Structure:
         names = self._structural_names(run.model)

@@ -6,22 +6,22 @@ import multiprocessing as mp
 import os
 import threading
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from time import monotonic
 from typing import Any
 
-from arthur_acausal.sweep.execute import Outcome, execute
+from arthur_acausal.sweep.execute import Outcome, execute, system_of
 from arthur_acausal.sweep.job import Job
 from arthur_acausal.sweep.spawn import apart
+from arthur_acausal.sweep.supply import Take
 from arthur_acausal.sweep.task import Task
 
 AHEAD = 2  # tasks that a worker has at a time, so that it need not wait for the next one
 GRACE = 2.0  # s that a run over its time has to end by itself and to give back what it has
-
-Take = Callable[[], Task | None]
+LOADING = 60.0  # s that a new worker may take before its first run begins
 
 
 @dataclass
@@ -30,7 +30,7 @@ class _Worker:
     pipe: Connection
     known: set[str] = field(default_factory=set)  # digests of the jobs that it has
     tasks: deque[Task] = field(default_factory=deque)  # the first one is running
-    since: float = 0.0  # when that began, s
+    since: float = 0.0  # when that began, or has to begin, s
 
 
 class Crew:
@@ -58,30 +58,29 @@ class Crew:
     def run(self, take: Take) -> Iterator[tuple[Task, Outcome]]:
         """Yield what comes of each task, in the order in which they end; ``take`` gives the next one, or None."""
         again: deque[Task] = deque()
-        exhausted = False
         while True:
-            exhausted = self._hand_out(take, again, exhausted)
+            self._hand_out(take, again)
             if not again and not any(worker.tasks for worker in self._workers):
                 return
             yield from _collect(self._workers, again, self._timeout, self._retry)
 
-    def _hand_out(self, take: Take, again: deque[Task], exhausted: bool) -> bool:
-        """Give each worker its next tasks, those with the fewest first; return whether there are no more."""
+    def _hand_out(self, take: Take, again: deque[Task]) -> None:
+        """Give each worker its next tasks, those with the fewest first."""
         while True:
             if len(self._workers) < self._size and all(w.tasks for w in self._workers):
-                task = again.popleft() if again else None if exhausted else take()
-                if task is not None:
-                    self._workers.append(_start())
-                    _give(self._workers[-1], task)
-                    self._send(self._workers[-1], task)
-                    continue
-                exhausted = True
+                task = again.popleft() if again else take()
+                if task is None:
+                    return
+                self._workers.append(_start())
+                _give(self._workers[-1], task)
+                self._send(self._workers[-1], task)
+                continue
             worker = min(self._workers, key=lambda w: len(w.tasks), default=None)
             if worker is None or len(worker.tasks) >= AHEAD:
-                return exhausted
-            task = again.popleft() if again else None if exhausted else take()
+                return
+            task = again.popleft() if again else take()
             if task is None:
-                return True
+                return
             _give(worker, task)
             self._send(worker, task)
 
@@ -89,7 +88,7 @@ class Crew:
         content = None
         if task.job.digest not in worker.known:
             worker.known.add(task.job.digest)
-            content = (task.job.system, task.job.settings)
+            content = task.job.content
         with suppress(OSError):  # it has just died: that shows when its pipe is read
             worker.pipe.send((task.job.digest, content, task.values, self._timeout))
 
@@ -110,9 +109,9 @@ def _collect(
         except (EOFError, OSError):
             yield from _bury(crew, worker, again, retry, "its process died")
             continue
-        task = worker.tasks.popleft()
         worker.since = monotonic()
-        yield task, outcome
+        if outcome is not None:  # else a job has been loaded
+            yield worker.tasks.popleft(), outcome
     if timeout is not None:
         for worker in [w for w in crew if w.tasks and monotonic() - w.since > timeout + GRACE]:
             task = worker.tasks.popleft()
@@ -147,12 +146,12 @@ def _start() -> _Worker:
     with apart():
         process.start()
     theirs.close()
-    return _Worker(process, ours, since=monotonic())
+    return _Worker(process, ours, since=monotonic() + LOADING)
 
 
 def _give(worker: _Worker, task: Task) -> None:
     if not worker.tasks:
-        worker.since = monotonic()
+        worker.since = max(worker.since, monotonic())
     worker.tasks.append(task)
 
 
@@ -178,6 +177,8 @@ def _serve(pipe: Connection) -> None:
             digest, content, values, timeout = pipe.recv()
             if content is not None:
                 jobs[digest] = Job.restored(*content)
+                system_of(jobs[digest])
+                pipe.send(None)
             pipe.send(execute(jobs[digest], values, timeout))
 
 

@@ -21,6 +21,7 @@ from arthur_acausal.sweep.opened import Sweep
 
 MOST_NUMBERS = 1_500_000  # of trajectories in a page: 8 MB
 MOST_TIMES = 200
+AT_A_TIME = 500  # trajectories that are read at once, which takes half the time of one by one
 TEXT = ("status", "error", "notes", "engine", "platform", "model")
 OF_THE_MACHINE = (
     "platform",
@@ -110,7 +111,8 @@ def _trajectories(sweep: Sweep) -> dict[str, Any]:
     most = max(1, MOST_NUMBERS // (time.size * len(variables)))
     chosen = numbers[:: max(1, math.ceil(numbers.size / most))]
     array = store.open_trajectories(sweep.folder, sweep.about)
-    values = np.stack([array[int(run)][:, ::step] for run in chosen]).astype("<f4")
+    blocks = (array.oindex[chosen[k : k + AT_A_TIME]] for k in range(0, chosen.size, AT_A_TIME))
+    values = np.concatenate([block[:, :, ::step].astype("<f4") for block in blocks])
     shown = (
         ""
         if chosen.size == numbers.size

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from arthur_acausal.errors import UsageError
 from arthur_acausal.sweep import store as stores
-from arthur_acausal.sweep.carry_out import How, Start, about, backend, row_of
+from arthur_acausal.sweep.carry_out import How, about, backend, row_of
 from arthur_acausal.sweep.design import Run
 from arthur_acausal.sweep.execute import Outcome
 from arthur_acausal.sweep.factor import Factor, parse_factor, quantity
@@ -21,6 +21,7 @@ from arthur_acausal.sweep.job import Job
 from arthur_acausal.sweep.lock import Lock
 from arthur_acausal.sweep.plan import Plan
 from arthur_acausal.sweep.store import Store
+from arthur_acausal.sweep.supply import Start
 from arthur_acausal.sweep.task import Task
 
 FloatArray = NDArray[np.float64]

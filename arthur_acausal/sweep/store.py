@@ -12,11 +12,12 @@ So whatever moment a process is killed at, or a disk fills up, what was there st
 from __future__ import annotations
 
 import io
+import itertools
 import json
 import math
 import os
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
 ABOUT, TABLE, JOURNAL, TRAJECTORIES = "sweep.json", "runs.parquet", "journal.jsonl", "trajectories.zarr"
 FOLD_AT = 20_000  # rows in the journal after which it is folded into the table
+AT_A_TIME = 500  # rows that are made part of a table at once: as dictionaries they take ten times the memory
 Row = dict[str, Any]
 BEFORE = "end_time"  # the column behind which reductions stand
 # Columns behind the reductions, which a failed run has none of.
@@ -164,14 +166,15 @@ def read_about(folder: Path) -> dict[str, Any]:
     return found
 
 
-def journal(folder: Path) -> list[Row]:
-    """Return the journal's rows, without lines that are torn or damaged."""
-    path = folder / JOURNAL
+def journal(folder: Path) -> Iterator[Row]:
+    """Yield the journal's rows, without lines that are torn or damaged."""
     try:
-        content = path.read_bytes()
+        with (folder / JOURNAL).open("rb") as lines:
+            yield from (
+                row for line in lines if line[-1:] == b"\n" and (row := _read_line(line[:-1])) is not None
+            )
     except FileNotFoundError:
-        return []
-    return [row for line in content.split(b"\n")[:-1] if (row := _read_line(line)) is not None]
+        return
 
 
 def table(folder: Path) -> pandas.DataFrame | None:
@@ -185,8 +188,9 @@ def table(folder: Path) -> pandas.DataFrame | None:
             parts.append(pd.read_parquet(path))
         except Exception as error:  # pyarrow has its own classes for damaged files
             raise ResultError(f"{path} cannot be read", cause=str(error)) from None
-    if rows := journal(folder):
-        parts.append(pd.DataFrame(rows))
+    rows = journal(folder)
+    while some := list(itertools.islice(rows, AT_A_TIME)):
+        parts.append(pd.DataFrame(some))
     if not parts:
         return None
     frame: Any = parts[0] if len(parts) == 1 else pd.concat(parts, ignore_index=True)
@@ -220,6 +224,7 @@ def open_trajectories(folder: Path, about: Mapping[str, Any], *, write: bool = F
             "trajectory",
             shape=shape,
             chunks=(1, *(max(1, n) for n in shape[1:])),
+            chunk_key_encoding={"name": "default", "separator": "."},  # a file a run, and no folders of it
             dtype="float64",
             fill_value=math.nan,
             dimension_names=("run", "variable", "time"),

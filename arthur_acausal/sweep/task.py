@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from arthur_acausal.sweep.job import Job, Values
+from arthur_acausal.sweep.job import Job, StateSet, Values
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """The run of number ``number`` with its own ``values``; ``attempts`` have failed before."""
+    """The run of number ``number`` with its own ``values``; ``attempts`` have failed before.
+
+    ``system_for`` makes the job's system for another set of states.
+    """
 
     number: int
     job: Job
     values: Values
+    system_for: Callable[[StateSet], bytes]
     attempts: int = 0
 
     def tried_again(self) -> Task:
