@@ -40,6 +40,9 @@ class Hydraulics(Component):
             Q_req=choice.Q_req,
             b_tank=choice.b_tank,
             audit=self.audit,
+            known=choice.known,
+            horizon=choice.horizon,
+            model_error=choice.model_error,
         )
         self.actuators = [
             Actuator(

@@ -3,9 +3,19 @@
 from __future__ import annotations
 
 from math import pi
-from typing import Literal
+from typing import Any, Literal
 
-from arthur_acausal import Component, Equations, Real, connect, der, parameter, real_input, start
+from arthur_acausal import (
+    Component,
+    DeclarationError,
+    Equations,
+    Real,
+    connect,
+    der,
+    parameter,
+    real_input,
+    start,
+)
 from arthur_acausal.components.blocks import EnergyMeter
 from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic import (
@@ -23,8 +33,18 @@ from arthur_acausal.components.hydraulic import (
     Volume,
     pump_scaling,
 )
+from arthur_acausal.components.hydraulic.motor import LINE_TO_LINE
 from arthur_acausal.components.rotational import SpeedSensor
-from arthur_acausal.models.arthur.pump_control import ConstantSpeed, FlowFeedForward, PressureControl
+from arthur_acausal.models.arthur.demand import Demand
+from arthur_acausal.models.arthur.predictive_control import PredictiveControl
+from arthur_acausal.models.arthur.pump_control import (
+    ConstantSpeed,
+    FlowFeedForward,
+    ForesightFeedForward,
+    PressureControl,
+    PumpControl,
+)
+from arthur_acausal.models.arthur.supply_model import SupplyModel
 
 POWERS = {
     "input": ("drive", "P_battery"),
@@ -42,7 +62,22 @@ POWERS = {
 
 STORED = ("motor.E_stored", "pump.E_stored", "manifold.E_stored", "reservoir.E_stored")
 
-PumpLaw = Literal["constant speed", "pressure", "feed-forward"]
+PumpLaw = Literal[
+    "constant speed",
+    "pressure",
+    "feed-forward",
+    "foresight",
+    "predictive",
+    "predictive pressure",
+    "clairvoyant",
+]
+
+CONTROLS: dict[str, type[PumpControl]] = {
+    "pressure": PressureControl,
+    "feed-forward": FlowFeedForward,
+    "foresight": ForesightFeedForward,
+}
+"""Controllers that need nothing but the data of the unit."""
 
 
 class PowerUnit(Component):
@@ -53,13 +88,16 @@ class PowerUnit(Component):
     reservoir has ``p_tank``. Its piston's seal takes 0.1 bar at 1 cm/s (``b_tank``); with the 10 N s/m of Table 11 it
     would ring at 4.2 kHz.
 
-    Structural parameters: ``law`` of the pump's control, see ConstantSpeed, PressureControl and FlowFeedForward;
-    ``accumulator``: False leaves it out; ``audit``: ``energy_*.E`` [J] integrate the powers of POWERS.
+    Structural parameters: ``law`` of the pump's control, see ConstantSpeed, PressureControl, FlowFeedForward,
+    ForesightFeedForward and PredictiveControl; "predictive pressure" decides about the pressure, too, "clairvoyant" has
+    the demand ``known`` from another run in place of a plan. ``accumulator``: False leaves it out; ``audit``:
+    ``energy_*.E`` [J] integrate the powers of POWERS. ``model_error`` [1]: see SupplyModel.
     """
 
     law: PumpLaw = "feed-forward"
     accumulator: bool = True
     audit: bool = False
+    known: Demand | None = None
     supply = HydraulicPort()
     tank = HydraulicPort()
     fluid: Fluid = Fluid()
@@ -77,6 +115,14 @@ class PowerUnit(Component):
         "N*s/m", default=1e3, min=0.0, description="damping of the reservoir's piston; assumed"
     )
     p_tank: Real = parameter("Pa", default=3e5, min=0.0, display="bar", description="reservoir at the start")
+
+    horizon: Real = parameter("s", default=0.3, min=0.0, description="how far the plan is used")
+    model_error: Real = parameter(
+        "1",
+        default=0.0,
+        min=-0.9,
+        description="by which the controller takes the pump to be larger than it is",
+    )
 
     def build(self) -> None:
         check_choice(self, "law", PumpLaw)
@@ -103,18 +149,44 @@ class PowerUnit(Component):
             return Volume(fluid=self.fluid, V=self.V_manifold, p=p)
         return Accumulator(fluid=self.fluid, V_0=self.V_gas, p_pre=self.p_pre, V_dead=self.V_manifold, p=p)
 
-    def _control(self) -> ConstantSpeed | PressureControl:
-        motor, c_L = self.motor, self.pump.c_L
-        K_e, R_p = motor.K_e, motor.R_LL * c_L / motor.K_T
+    def _model(self) -> SupplyModel:
+        """Return what the controller believes: the true data but for the pump's size, which ``model_error`` adds to."""
+        motor, pump, manifold, drive = self.motor, self.pump, self.manifold, self.drive
+        gas = isinstance(manifold, Accumulator)
+        return SupplyModel(
+            K_T=motor.K_T,
+            K_e=motor.K_e,
+            R_LL=motor.R_LL,
+            I_max=motor.I_max,
+            k_P=1 / LINE_TO_LINE,
+            b=motor.b_m + pump.b_p,
+            J=motor.J + pump.J,
+            c_L=(1 + self.model_error) * pump.c_L,
+            R_G=pump.R_G,
+            RR_G=pump.RR_G,
+            V_manifold=self.V_manifold,
+            beta=self.fluid.beta,
+            V_gas=self.V_gas if gas else 0.0,
+            p_pre=self.p_pre,
+            n=manifold.n if isinstance(manifold, Accumulator) else 1.4,
+            p_relief=self.p_relief,
+            V_oc=drive.V_oc,
+            R_i=drive.R_i,
+        )
+
+    def _control(self) -> PumpControl:
+        believed = self._model()
+        given: dict[str, Any] = {"believed": believed, "P_des": self.P_des, "horizon": self.horizon}
         if self.law == "constant speed":
-            return ConstantSpeed(K_e=K_e, R_p=R_p, w_0=self.N_0)
-        kind = PressureControl if self.law == "pressure" else FlowFeedForward
-        C = self.V_manifold / self.fluid.beta
-        if isinstance(self.manifold, Accumulator):
-            exponent = self.manifold.n
-            gas = self.V_gas * (self.p_pre / self.P_des) ** (1 / exponent)
-            C = C + gas / (exponent * self.P_des)
-        return kind(K_e=K_e, R_p=R_p, P_des=self.P_des, c_L=c_L, C=C)
+            return ConstantSpeed(w_0=self.N_0, **given)
+        if self.law in CONTROLS:
+            return CONTROLS[self.law](**given)
+        if (self.law == "clairvoyant") != (self.known is not None):
+            raise DeclarationError(
+                "the clairvoyant control of the pump, and no other, is given the demand that it knows",
+                remedy="record one by Demand.of(solution), and give it as `known`",
+            )
+        return PredictiveControl(free_pressure=self.law == "predictive pressure", known=self.known, **given)
 
     def equations(self) -> Equations:
         tank, control = self.reservoir.port, self.control

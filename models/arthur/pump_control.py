@@ -13,49 +13,65 @@ from arthur_acausal import (
     parameter,
     real_input,
     real_output,
+    smooth_if_else,
     variable,
 )
+from arthur_acausal.models.arthur.supply_model import SupplyModel
 
 
 class Planned(Component):
-    """A flow ``q`` [m^3/s] planned for a moment ahead; whoever plans sets it at events, until then it is 0."""
+    """What is planned for a moment ahead; whoever plans sets it at events, until then it is 0.
+
+    ``q`` [m^3/s] flow that the actuators will take, ``p`` [Pa] supply pressure that their forces will need.
+    """
 
     q: Real = discrete("m^3/s")
+    p: Real = discrete("Pa")
 
 
 class PumpControl(Component):
-    """What all controllers of the pump share: their interface, and the loop of the speed.
+    """What all controllers of the pump share: their interface.
 
     Inputs: ``w`` [rad/s] speed of the motor, ``p`` [Pa] supply pressure, ``q_command`` [m^3/s] flow that the
-    actuators' controllers ask for now, ``plan[k].q`` the flow planned for k steps of the locomotion controller ahead,
-    from now on to its ``horizon`` (a controller that predicts uses it, the others do not). Output: ``V`` [V],
-    the voltage asked of the drive: V = K_e w_d + R_p p + k_w (w_d - w), back-emf and load ahead, so that the speed
-    follows ``w_d`` [rad/s].
-
-    A subclass says what ``w_d`` is, within ``w_min`` to ``w_max``.
+    actuators' controllers ask for now, ``plan[k].q`` and ``plan[k].p`` what is planned for k times ``step`` [s] ahead,
+    from now on to ``steps``. A controller with foresight uses as much of the plan as lies within its ``horizon`` [s],
+    the others none. Output: ``V`` [V], the voltage asked of the drive. ``believed`` is what it takes for the data of
+    motor, pump and supply, ``P_des`` [Pa] the pressure that it shall keep.
     """
 
-    horizon: int = 10
+    steps: int = 10
+    believed: SupplyModel = SupplyModel()
     w: Real = real_input("rad/s", nominal=500.0, display="rpm", description="speed of the motor")
     p: Real = real_input("Pa", nominal=1e7, display="bar", description="supply pressure")
     q_command: Real = real_input("m^3/s", default=0.0, nominal=1e-4, description="flow that is asked for")
     V: Real = real_output("V", nominal=40.0, description="voltage asked of the drive")
-    K_e: Real = parameter("V*s/rad", min=0.0, description="back-emf constant of the motor")
-    R_p: Real = parameter("V/Pa", min=0.0, description="voltage for the pump's torque: R_LL c_L/K_T")
-    k_w: Real = parameter("V*s/rad", default=0.3, min=0.0, description="gain of the speed loop; assumed")
-    w_min: Real = parameter("rad/s", default=50.0, min=0.0, display="rpm", description="least speed")
+    P_des: Real = parameter("Pa", default=135e5, min=0.0, display="bar", description="pressure to keep")
+    step: Real = parameter("s", default=0.03, min=0.0, description="of the plan")
+    horizon: Real = parameter("s", default=0.3, min=0.0, description="how far the plan is used")
     w_max: Real = parameter("rad/s", default=550.0, min=0.0, display="rpm", description="greatest speed")
-    w_d: Real = variable("rad/s", nominal=500.0, display="rpm", description="speed asked for")
 
     def build(self) -> None:
-        self.plan = [Planned() for _ in range(self.horizon + 1)]
+        self.plan = [Planned() for _ in range(self.steps + 1)]
+
+
+class SpeedControl(PumpControl):
+    """A controller that asks for a speed ``w_d`` [rad/s], within ``w_min`` to ``w_max``, and its loop.
+
+    V = K_e w_d + R_LL c_L p/K_T + k_w (w_d - w): back-emf and load ahead, so that the speed follows. A subclass
+    says what ``w_d`` is.
+    """
+
+    k_w: Real = parameter("V*s/rad", default=0.3, min=0.0, description="gain of the speed loop; assumed")
+    w_min: Real = parameter("rad/s", default=50.0, min=0.0, display="rpm", description="least speed")
+    w_d: Real = variable("rad/s", nominal=500.0, display="rpm", description="speed asked for")
 
     def equations(self) -> Equations:
-        ahead = self.K_e * self.w_d + self.R_p * self.p
+        model = self.believed
+        ahead = model.K_e * self.w_d + model.R_LL * model.c_L * self.p / model.K_T
         yield "speed loop", self.V == ahead + self.k_w * (self.w_d - self.w)
 
 
-class ConstantSpeed(PumpControl):
+class ConstantSpeed(SpeedControl):
     """The motor turns at ``w_0`` [rad/s], whatever is needed; the relief valve keeps the pressure."""
 
     w_0: Real = parameter("rad/s", default=523.6, min=0.0, display="rpm", description="speed: 5000 rpm")
@@ -65,18 +81,15 @@ class ConstantSpeed(PumpControl):
         yield self.w_d == self.w_0
 
 
-class PressureControl(PumpControl):
+class PressureControl(SpeedControl):
     """PI regulation of the supply pressure to ``P_des`` [Pa]: w_d = k_p e + x, x' = k_p e/T_i, limited.
 
-    The gain follows from the supply's capacitance: a pump of c_L = D/(2 pi) that turns faster by one rad/s raises the
+    The gain follows from the supply's capacitance C: a pump of c_L = D/(2 pi) that turns faster by one rad/s raises the
     pressure by c_L/C a second, so k_p = omega_c C/c_L crosses at ``omega_c``. State: ``x`` [rad/s].
 
-    Parameters: ``C`` [m^3/Pa] of accumulator and manifold, ``omega_c`` [rad/s], ``T_i`` [s]: assumed.
+    Parameters: ``omega_c`` [rad/s], ``T_i`` [s]: assumed.
     """
 
-    P_des: Real = parameter("Pa", default=135e5, min=0.0, display="bar", description="pressure to keep")
-    c_L: Real = parameter("m^3", min=0.0, description="torque constant of the pump, D/(2 pi)")
-    C: Real = parameter("m^3/Pa", min=0.0, description="capacitance of the supply")
     omega_c: Real = parameter("rad/s", default=60.0, min=0.0, description="crossing frequency")
     T_i: Real = parameter("s", default=0.1, min=0.0, description="integral time")
     k_aw: Real = parameter("1/s", default=50.0, min=0.0, description="anti-windup")
@@ -86,7 +99,8 @@ class PressureControl(PumpControl):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        k_p = self.omega_c * self.C / self.c_L
+        model = self.believed
+        k_p = self.omega_c * model.capacitance(self.P_des) / model.c_L
         yield self.e == self.P_des - self.p
         yield "PI", self.w_ask == k_p * self.e + self.x + self.feed_forward()
         yield "limits", self.w_d == fmin(fmax(self.w_ask, self.w_min), self.w_max)
@@ -98,7 +112,41 @@ class PressureControl(PumpControl):
 
 
 class FlowFeedForward(PressureControl):
-    """PI regulation of the pressure with feed-forward of the flow that the actuators ask for, ``q_command``/c_L."""
+    """PI regulation of the pressure with feed-forward of the flow that the actuators ask for, k_q q_command/c_L."""
+
+    k_q: Real = parameter("1", default=1.0, min=0.0, description="share of the flow that is fed forward")
 
     def feed_forward(self) -> SX:
-        return self.q_command / self.c_L
+        return self.k_q * self.q_command / self.believed.c_L
+
+
+class ForesightFeedForward(PressureControl):
+    """PI regulation of the pressure with feed-forward of the flow that is planned.
+
+    What is fed forward begins ``lead`` [s] ahead, as rotor and current limit take time to follow, and is the mean
+    over ``span`` [s], as the accumulator bridges what is shorter. ``peak`` [1] is the share of the greatest flow
+    within the horizon that takes its place, for a supply that cannot store what a peak needs. The window ends at the
+    ``horizon``; the plan is linear between its points.
+    """
+
+    k_q: Real = parameter("1", default=1.0, min=0.0, description="share of the flow that is fed forward")
+    lead: Real = parameter("s", default=0.005, min=0.0, description="beginning of the window")
+    span: Real = parameter("s", default=0.02, min=0.0, description="length of the window")
+    span_min: Real = parameter("s", default=1e-3, min=0.0, description="least length of the window")
+    peak: Real = parameter("1", default=0.0, min=0.0, max=1.0, description="share of the greatest flow ahead")
+
+    def feed_forward(self) -> SX:
+        begin = fmin(self.lead, self.horizon)
+        width = fmax(fmin(self.span, self.horizon - begin), self.span_min)
+        mean, greatest = SX(0.0), self.plan[0].q
+        for k, ahead in enumerate(self.plan):
+            share = hat_integral((begin + width) / self.step - k) - hat_integral(begin / self.step - k)
+            mean += share * self.step / width * ahead.q
+            greatest = fmax(greatest, smooth_if_else(k * self.step <= self.horizon, ahead.q, 0))
+        return self.k_q * (mean + self.peak * (greatest - mean)) / self.believed.c_L
+
+
+def hat_integral(x: SX) -> SX:
+    """Return the integral up to ``x`` of the hat function 1 - |x| on [-1, 1]."""
+    x = fmin(fmax(x, -1), 1)
+    return smooth_if_else(x < 0, (1 + x) ** 2 / 2, 1 - (1 - x) ** 2 / 2)

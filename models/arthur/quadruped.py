@@ -29,6 +29,7 @@ from arthur_acausal.models.arthur.budget import budget
 from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimensions
 from arthur_acausal.models.arthur.figures import figures
 from arthur_acausal.models.arthur.hydraulics import Hydraulics
+from arthur_acausal.models.arthur.locomotion.actuation import Cylinders
 from arthur_acausal.models.arthur.locomotion.commands import Command, Constant
 from arthur_acausal.models.arthur.locomotion.controller import Configuration
 from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
@@ -144,7 +145,8 @@ class Quadruped(Hydraulics):
         command = Command(
             v_x=self.v_x, v_y=self.v_y, yaw_rate=self.yaw_rate, gait=self.gait, swing_height=self.swing_height
         )
-        return Walking(Configuration(commands=Constant(command), seed=self.seed))
+        cylinders = Cylinders(q_rated=self.options.q_rated)
+        return Walking(Configuration(commands=Constant(command), cylinders=cylinders, seed=self.seed))
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -211,10 +213,10 @@ class Quadruped(Hydraulics):
         return [getattr(body, name) for name in names] + [a.load_cell.f for a in self.actuators]
 
     def asked(self) -> list[SX]:
-        """Return what is set at a sample: forces before 12 and now 12, the time 12 times, planned flows."""
-        points = self.set_points
+        """Return what is set at a sample: forces before 12 and now 12, time 12 times, planned flows and pressures."""
+        points, plan = self.set_points, self.unit.control.plan
         held = [s.before for s in points] + [s.value for s in points] + [s.since for s in points]
-        return held + [plan.q for plan in self.unit.control.plan]
+        return held + [ahead.q for ahead in plan] + [ahead.p for ahead in plan]
 
 
 def largest(values: Iterable[SX]) -> SX:

@@ -8,6 +8,7 @@ from arthur_acausal import UsageError
 from arthur_acausal.components.hydraulic import GPM
 from arthur_acausal.components.hydraulic.servo_valve import Spool
 from arthur_acausal.models.arthur.actuator import ForceLaw
+from arthur_acausal.models.arthur.demand import Demand
 from arthur_acausal.models.arthur.power_unit import PumpLaw
 
 
@@ -20,6 +21,8 @@ class QuadrupedOptions:
     p_relief, P_des : cracking pressure of the relief valve, pressure that the pump's controller keeps [Pa].
     Q_req : flow by which the pump is sized [m^3/s]. q_rated : rated flow of each valve at 70 bar [m^3/s].
     accumulator : 10 cc of gas at 84 bar beside the manifold. pump : controller of the pump, see PowerUnit.
+    horizon : how far a controller with foresight uses the plan [s]. model_error : share by which the pump's controller
+    takes the pump to be larger than it is. known : the demand that a clairvoyant controller knows.
     force : controller of the forces, see Actuator. spool : of the valves, see ServoValve.
     c : damping of the cylinders [N s/m]. b_tank : damping of the reservoir's piston [N s/m].
     cavitation : of the fluid, see Fluid.
@@ -31,6 +34,9 @@ class QuadrupedOptions:
     q_rated: float = 2e-3 / 60
     accumulator: bool = True
     pump: PumpLaw = "feed-forward"
+    horizon: float = 0.3
+    model_error: float = 0.0
+    known: Demand | None = None
     force: ForceLaw = "feed-forward"
     spool: Spool = "second order"
     c: float = 100.0

@@ -42,9 +42,10 @@ class Walking:
         return cls(of_data(data))
 
     def __call__(self, t: float, sensors: FloatArray) -> FloatArray:
-        """Return the forces of the cylinders [N], and the flow planned over the horizon [m^3/s]."""
+        """Return the forces of the cylinders [N], flow [m^3/s] and pressure [Pa] that the plan needs."""
         outputs, places = self._controller(t, sensors[:N_INPUTS]), self._controller.places
         forces = actuator_forces(outputs[places["torque"]], sensors[self._angles])
         before = forces if self._before is None else self._before
         self._before = forces
-        return np.concatenate([before, forces, np.full(12, t), outputs[places["flow"]]])
+        ahead = [outputs[places[name]] for name in ("flow", "pressure")]
+        return np.concatenate([before, forces, np.full(12, t), *ahead])

@@ -74,7 +74,10 @@ def test_figures_at_5000_rpm() -> None:
         ), name
 
 
-@pytest.mark.parametrize("law", ["constant speed", "pressure", "feed-forward"])
+@pytest.mark.parametrize(
+    "law",
+    ["constant speed", "pressure", "feed-forward", "foresight", "predictive", "predictive pressure"],
+)
 def test_it_starts_in_balance(law: PumpLaw) -> None:
     solution = run(law)
     first = solution.t < 2e-3

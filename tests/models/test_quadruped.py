@@ -100,7 +100,7 @@ class Limp:
         return self
 
     def __call__(self, t: float, sensors: Any) -> Any:
-        return np.concatenate([np.zeros(24), np.full(12, t), np.zeros(11)])
+        return np.concatenate([np.zeros(24), np.full(12, t), np.zeros(22)])
 
 
 def test_a_fall_ends_the_run_and_is_told() -> None:

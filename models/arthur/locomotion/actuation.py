@@ -21,6 +21,8 @@ class Cylinders:
     ----------
     A_A, A_B : piston area and annular area on the rod's side [m^2]. pressure : of the supply [Pa].
     efficiency : of force [1]. leakage : of all valves and cylinders together [m^3/s].
+    q_rated, dp_land : flow of a valve fully open [m^3/s] at this drop of each land [Pa]. p_return : [Pa].
+    V_A, V_B : volumes of the chambers, the piston about the middle [m^3]. beta : bulk modulus of the fluid [Pa].
     """
 
     A_A: float = 7.13e-5
@@ -28,6 +30,12 @@ class Cylinders:
     pressure: float = 140e5
     efficiency: float = 0.95
     leakage: float = 0.0
+    q_rated: float = 2e-3 / 60
+    dp_land: float = 35e5
+    p_return: float = 3e5
+    V_A: float = 1.9e-6
+    V_B: float = 1.6e-6
+    beta: float = 1.4e9
 
     @property
     def push(self) -> float:

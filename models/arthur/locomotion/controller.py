@@ -13,12 +13,17 @@ from arthur_acausal.models.arthur.locomotion.actuation import Cylinders
 from arthur_acausal.models.arthur.locomotion.base_trajectory import BaseReference
 from arthur_acausal.models.arthur.locomotion.commands import Command, Commands, Constant
 from arthur_acausal.models.arthur.locomotion.estimation import Estimate, Estimator
-from arthur_acausal.models.arthur.locomotion.flow import predicted_flow
+from arthur_acausal.models.arthur.locomotion.flow import (
+    compression_flow,
+    piston_forces,
+    predicted_flow,
+    required_pressure,
+)
 from arthur_acausal.models.arthur.locomotion.foot_placement import foot_placement, hips
 from arthur_acausal.models.arthur.locomotion.gait_modulator import GaitModulator
 from arthur_acausal.models.arthur.locomotion.gaits import GAITS
 from arthur_acausal.models.arthur.locomotion.kernel import Kernel
-from arthur_acausal.models.arthur.locomotion.leg_model import inverse_kinematics
+from arthur_acausal.models.arthur.locomotion.leg_model import inverse_kinematics, kinematics
 from arthur_acausal.models.arthur.locomotion.leg_state import LegState
 from arthur_acausal.models.arthur.locomotion.leg_torques import leg_torques
 from arthur_acausal.models.arthur.locomotion.rotation import about_z, cross
@@ -78,6 +83,7 @@ class Controller:
         self._leg_torques = Kernel(leg_torques(c.robot, c.cylinders, c.settings))
         self._foot_plan = Kernel(foot_plan(n, h))
         self._postures = Kernel(inverse_kinematics(c.robot, n + 1))
+        self._kinematics = Kernel(kinematics(c.robot).map(n + 1))
         self._times: FloatArray = h * np.arange(n + 1.0)
         self._every = max(1, round(c.settings.mpc_period / c.settings.period))
         self._tick = 0
@@ -89,7 +95,9 @@ class Controller:
         self._share = (
             1.0 if c.settings.smoothing <= 0.0 else -expm1(-c.settings.period / c.settings.smoothing)
         )
-        self._flow = np.zeros(n + 1)
+        self._ground = np.zeros((n, 4, 3))
+        self._flow, self._pressure = np.zeros(n + 1), np.zeros(n + 1)
+        self._age = 0.0
         self._rates = np.zeros((n + 1, 12))
 
     def fresh(self) -> Controller:
@@ -106,9 +114,11 @@ class Controller:
         stance = np.array([leg.c_sync for leg in self._legs])
         if self._tick % self._every == 0 or (stance != self._stance).any():
             self._plan(state, stance)
+            self._age = 0.0
         self._stance = stance
         outputs = self._outputs(state, self._torques(state, stance))
         self._tick += 1
+        self._age += self.configuration.settings.period
         return outputs
 
     def _update_gait(self, command: Command, state: Estimate) -> bool:
@@ -169,10 +179,24 @@ class Controller:
         )
         if plan.stance.any():
             problem = self._stance_control.problem(state, reference.trajectory(), arms, plan.stance)
-            self._force = self._stance_control.forces(problem, plan.stance)[0]
+            self._ground = self._stance_control.forces(problem, plan.stance)
+            self._force = self._ground[0]
         angles, rates = self._postures(plan.foot.reshape(-1), plan.velocity.reshape(-1))
         self._rates = rates.reshape(-1, 12).copy()
-        self._flow = predicted_flow(angles.reshape(-1, 12), self._rates, c.cylinders)
+        self._predict(angles, state.R)
+
+    def _predict(self, angles: FloatArray, R: FloatArray) -> None:
+        """Predict the flow and the pressure that the plan needs of the supply; the last step's forces stay."""
+        c, rates = self.configuration, self._rates
+        up = np.tile(R[2], len(rates))
+        _, _, _, jacobians, _ = self._kinematics(angles, rates.ravel(), up)
+        angles = angles.reshape(-1, 12)
+        ground = np.concatenate([self._ground, self._ground[-1:]])
+        arms = jacobians.reshape(-1, 4, 3, 3).transpose(0, 1, 3, 2)
+        forces = piston_forces(ground, arms, R, angles)
+        self._flow = predicted_flow(angles, rates, c.cylinders)
+        self._flow += compression_flow(forces, c.settings.step, c.cylinders)
+        self._pressure = required_pressure(forces, angles, rates, c.cylinders)
 
     def _planned_feet(self, state: Estimate, stance: BoolArray) -> FootPlan:
         m, n = self._modulator, self.configuration.settings.horizon
@@ -240,7 +264,8 @@ class Controller:
             c * y - s * x,
             z,
         ]
-        return np.concatenate([torques, small, self._force.ravel(), self._flow, self._rates.ravel()])
+        ahead = [np.interp(self._times + self._age, self._times, x) for x in (self._flow, self._pressure)]
+        return np.concatenate([torques, small, self._force.ravel(), *ahead, self._rates.ravel()])
 
 
 def outputs_of(settings: Settings) -> dict[str, slice]:
@@ -248,8 +273,9 @@ def outputs_of(settings: Settings) -> dict[str, slice]:
 
     torque : of the joints, 12 [N m]. S_st, S_sw : stance and swing state, 4 each. stance : c_sync, 4. contact : c_f, 4.
     desired : velocity ahead, left [m/s], yaw rate [rad/s]. velocity : estimated, ahead, left, up [m/s].
-    force : on the feet, in the world, 12 [N]. flow : predicted supply flow at 0, h, ..., N h [m^3/s].
-    rates : predicted joint rates at these times, 12 each [rad/s].
+    force : on the feet, in the world, 12 [N]. flow : predicted supply flow from now on, at 0, h, ..., N h [m^3/s].
+    pressure : of the supply that is needed then [Pa].
+    rates : predicted joint rates at these times after the last plan, 12 each [rad/s].
     """
     points = settings.horizon + 1
     lengths = {
@@ -262,6 +288,7 @@ def outputs_of(settings: Settings) -> dict[str, slice]:
         "velocity": 3,
         "force": 12,
         "flow": points,
+        "pressure": points,
         "rates": 12 * points,
     }
     places, start = {}, 0
