@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from arthur_acausal.api import Translation as Translation
     from arthur_acausal.api import simulate as simulate
     from arthur_acausal.api import translate as translate
+    from arthur_acausal.codegen.build import compile_c as compile_c
     from arthur_acausal.declare.external import ExternalFunction as ExternalFunction
     from arthur_acausal.declare.external import external as external
     from arthur_acausal.declare.model import Component as Component
@@ -56,6 +57,7 @@ __version__ = "0.1.0"
 # where each public name lives: a module is imported when one of its names is used for the first time
 _HOME = {
     "api": ("Translation", "simulate", "translate"),
+    "codegen.build": ("compile_c",),
     "declare.external": ("ExternalFunction", "external"),
     "declare.model": ("Component", "Connector", "Equations", "Record"),
     "declare.quantity": (

@@ -49,10 +49,17 @@ class ExternalCall:
     slope: int
 
 
-class _Step:
-    """A call with its own copy of the function, and views of its part of e and d."""
+NOTHING, OUTPUTS, SLOPES, EXACT_SLOPES = range(4)
+"""What of a call is known at its inputs: each contains those before it."""
 
-    __slots__ = ("call", "exact", "function", "inputs", "key", "outputs", "slope_key", "slopes")
+
+class Step:
+    """A call with its own copy of the function, and views of its part of e and d.
+
+    ``key``: the inputs at which ``known[0]`` says what stands there. Callbacks in C read and write both.
+    """
+
+    __slots__ = ("call", "exact", "function", "inputs", "key", "known", "outputs", "slopes")
 
     def __init__(self, call: ExternalCall, kernel: Kernel, e: FloatArray, d: FloatArray) -> None:
         self.call, self.inputs = call, kernel
@@ -61,15 +68,29 @@ class _Step:
         self.outputs = e[call.first : call.first + n]
         self.slopes = d[call.slope : call.slope + n * m].reshape(n, m)
         self.exact = getattr(self.function, "exact_derivative", self.function.derivative)
-        self.key: bytes | None = None  # inputs of the outputs, and of the derivatives, that stand there
-        self.slope_key: tuple[bytes | None, bool] | None = None
+        self.key, self.known = np.zeros(m), np.zeros(1, dtype=np.int64)
+
+
+class Prepared:
+    """A kernel that is preceded by the calls that it needs, ``steps``, and their derivatives where it takes them."""
+
+    __slots__ = ("derivatives", "kernel", "prepare", "steps")
+
+    def __init__(
+        self, kernel: Kernel, steps: Sequence[Step], derivatives: bool, prepare: Callable[[], None]
+    ) -> None:
+        self.kernel, self.steps, self.derivatives, self.prepare = kernel, steps, derivatives, prepare
+
+    def __call__(self) -> FloatArray:
+        self.prepare()
+        return self.kernel()
 
 
 class Calls:
     """All external functions of one evaluator.
 
-    ``exact``: whether derivatives are to be exact; ``count``, ``seconds``: evaluations so far and the time in them,
-    derivatives included.
+    ``exact``: whether derivatives are to be exact; ``tally``: evaluations so far and the time in them [s], derivatives
+    included. Callbacks in C add to it.
     """
 
     def __init__(
@@ -81,36 +102,46 @@ class Calls:
         d: FloatArray,
     ) -> None:
         self.exact = True
-        self.count, self.seconds = 0, 0.0
+        self.tally = np.zeros(2)
         self._t = arguments[0]
-        self._steps = [_Step(c, Kernel(functions.get(c.name, c.inputs), arguments), e, d) for c in calls]
+        self._steps = [Step(c, Kernel(functions.get(c.name, c.inputs), arguments), e, d) for c in calls]
 
-    def _evaluate(self, steps: Sequence[_Step]) -> None:
+    @property
+    def count(self) -> int:
+        """Evaluations so far."""
+        return int(self.tally[0])
+
+    @property
+    def seconds(self) -> float:
+        """Wall time in them and their derivatives [s]."""
+        return float(self.tally[1])
+
+    def _evaluate(self, steps: Sequence[Step]) -> None:
         """Bring the outputs up to date with the arguments."""
         for step in steps:
             inputs = step.inputs()
-            key = inputs.tobytes()
-            if key != step.key:
-                step.key = None
+            if not step.known[0] or inputs.tobytes() != step.key.tobytes():
+                step.known[0] = NOTHING
                 self._run(step, step.function.evaluate, inputs, step.outputs)
-                self.count += 1
-                step.key = key
+                self.tally[0] += 1.0
+                step.key[:] = inputs
+                step.known[0] = OUTPUTS
 
-    def _differentiate(self, steps: Sequence[_Step]) -> None:
+    def _differentiate(self, steps: Sequence[Step]) -> None:
         """Bring outputs and derivatives up to date with the arguments."""
         self._evaluate(steps)
+        wanted = EXACT_SLOPES if self.exact else SLOPES
         for step in steps:
-            key = (step.key, self.exact)
-            if key != step.slope_key:
-                step.slope_key = None
+            if step.known[0] < wanted:
+                step.known[0] = OUTPUTS
                 method = step.exact if self.exact else step.function.derivative
                 self._run(step, method, step.inputs.result, step.slopes)
-                step.slope_key = key
+                step.known[0] = wanted
 
     def restart(self) -> None:
         """An event has been handled: stale derivatives may be renewed."""
         for step in self._steps:
-            step.slope_key = None
+            step.known[0] = min(step.known[0], OUTPUTS)
             renew = getattr(step.function, "restart", None)
             if renew is not None:
                 renew()
@@ -129,19 +160,15 @@ class Calls:
         steps = [self._steps[k] for k in need.calls]
         return partial(self._differentiate if need.derivatives else self._evaluate, steps)
 
-    def before(self, kernel: Kernel, need: Need | None) -> Callable[[], FloatArray]:
+    def before(self, kernel: Kernel, need: Need | None) -> Kernel | Prepared:
         """Return a kernel that is preceded by the calls that it needs."""
         if need is None:
             return kernel
-        prepare = self.preparation(need)
+        return Prepared(
+            kernel, [self._steps[k] for k in need.calls], need.derivatives, self.preparation(need)
+        )
 
-        def prepared() -> FloatArray:
-            prepare()
-            return kernel()
-
-        return prepared
-
-    def _run(self, step: _Step, method: Callable[..., None], inputs: FloatArray, out: FloatArray) -> None:
+    def _run(self, step: Step, method: Callable[..., None], inputs: FloatArray, out: FloatArray) -> None:
         begun = perf_counter()
         try:
             method(inputs, out)
@@ -152,7 +179,7 @@ class Calls:
                 remedy="let it write NaN where it has no value: the integrator then takes a shorter step",
             ) from error
         finally:
-            self.seconds += perf_counter() - begun
+            self.tally[1] += perf_counter() - begun
 
 
 class Completion:

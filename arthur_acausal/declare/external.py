@@ -31,6 +31,9 @@ class ExternalFunction(Protocol):
     - ``units``: (units of the inputs, units of the outputs), checked against the equations' dimensions.
     - ``restart()``: the next point is another one, after an event or in the output; a stale derivative is renewed.
     - ``failure``: text, why the latest evaluation had no value; messages tell it.
+    - ``native``: (self, evaluate, derivative), addresses of an object and of ``int evaluate(void *self, const double
+      *inputs, double *outputs)`` and its like: the same in machine code, to the last bit, for the integrator to call
+      without the interpreter. Nonzero: Python is to do it. They keep the interpreter's lock, and may be 0.
     - ``describe()`` and a class method ``restore(data)``, JSON data: the translated model can go to other processes.
     """
 

@@ -23,7 +23,7 @@ class Differences:
     """d outputs / d inputs of a model's dynamics."""
 
     def __init__(self, dynamics: Dynamics) -> None:
-        self._dynamics = dynamics
+        self.dynamics = dynamics
         model, slots, n_v = dynamics.model, dynamics.slots, dynamics.layout.n_v
         self._base = np.empty(dynamics.n_outputs)
         self._moved = np.empty(slots.count)
@@ -36,11 +36,11 @@ class Differences:
         scale[slots.ctrl] = FORCE_STEP
         mass, inertia = float(np.sum(model.body_mass)), float(model.stat.meaninertia)
         scale[slots.wrench] = FORCE_STEP * np.tile([mass] * 3 + [inertia] * 3, len(dynamics.layout.wrenches))
-        self._scale = scale
+        self.scale = scale
 
     def write(self, inputs: FloatArray, jacobian: FloatArray, *, exact: bool = False) -> bool:
         """Fill ``jacobian`` (n_outputs, n_inputs); False, and NaN in it, where MuJoCo has no result."""
-        dynamics, slots = self._dynamics, self._dynamics.slots
+        dynamics, slots = self.dynamics, self.dynamics.slots
         if not dynamics.compute(inputs):
             jacobian.fill(np.nan)
             return False
@@ -70,9 +70,9 @@ class Differences:
         scheme: tuple[tuple[int, ...], tuple[float, ...]],
     ) -> bool:
         """Difference along input ``k``, or along direction ``k`` of motion where ``stage`` is 0."""
-        dynamics, moved = self._dynamics, self._moved
+        dynamics, moved = self.dynamics, self._moved
         if stage:
-            step *= self._scale[k]
+            step *= self.scale[k]
         column.fill(0.0)
         for offset, weight in zip(*scheme, strict=True):
             moved[:] = inputs
@@ -94,14 +94,16 @@ class Differences:
 
     def _to_coordinates(self, inputs: FloatArray, jacobian: FloatArray) -> None:
         """From the directions of motion to qpos: as MuJoCo normalises quaternions, their length has no effect."""
-        for joint in self._dynamics.layout.joints:
+        for joint in self.dynamics.layout.joints:
             q, v, straight = joint.q, joint.v, {"free": 3, "ball": 0}.get(joint.kind, 1)
             jacobian[:, q : q + straight] = self._tangent[:, v : v + straight]
             if joint.kind in ("free", "ball"):
-                turn = turning(inputs[q + straight : q + straight + 4])
-                jacobian[:, q + straight : q + straight + 4] = (
-                    self._tangent[:, v + straight : v + straight + 3] @ turn
+                q, v = q + straight, v + straight
+                x, y, z = (
+                    np.outer(self._tangent[:, v + k], turn)
+                    for k, turn in enumerate(turning(inputs[q : q + 4]))
                 )
+                jacobian[:, q : q + 4] = x + y + z  # in this order: BLAS has one of its own on each machine
 
 
 def turning(quaternion: FloatArray) -> FloatArray:
@@ -111,7 +113,8 @@ def turning(quaternion: FloatArray) -> FloatArray:
     """
     w, x, y, z = quaternion.tolist()
     rows = np.array([[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])
-    return 2.0 / float(quaternion @ quaternion) * rows
+    found: FloatArray = 2.0 / (w * w + x * x + y * y + z * z) * rows
+    return found
 
 
 class Stale:
@@ -121,10 +124,8 @@ class Stale:
         self.differences = differences
         self.renewals = 0
         self._max_age, self._age = max_age, max_age
-        self._signature = b""
-        dynamics = differences._dynamics
-        self._dynamics = dynamics
-        self._kept = np.empty((dynamics.n_outputs, dynamics.slots.count))
+        self._signature: bytes | None = b""
+        self._kept = np.empty((differences.dynamics.n_outputs, differences.dynamics.slots.count))
 
     def restart(self) -> None:
         """Compute the next derivative anew."""
@@ -132,18 +133,18 @@ class Stale:
 
     def write(self, inputs: FloatArray, jacobian: FloatArray) -> None:
         """Fill ``jacobian`` with the derivative that is kept, renewed first if it is time."""
-        if self._age >= self._max_age or self._signature != self._acting(inputs):
-            self._age = self._max_age
-            if self.differences.write(inputs, self._kept):
-                self._age = 0
-                self._signature = self._acting(inputs)
+        signature = self._acting(inputs)
+        if self._age >= self._max_age or self._signature != signature:
+            self._age = 0 if self.differences.write(inputs, self._kept) else self._max_age
+            self._signature = signature
             self.renewals += 1
         self._age += 1
         jacobian[:] = self._kept
 
-    def _acting(self, inputs: FloatArray) -> bytes:
-        """Return which contacts and limits act, and how: sticking, sliding, apart."""
-        self._dynamics.compute(inputs)
-        data = self._dynamics.data
+    def _acting(self, inputs: FloatArray) -> bytes | None:
+        """Return which contacts and limits act, and how: sticking, sliding, apart; None where there is no result."""
+        if not self.differences.dynamics.compute(inputs):
+            return None
+        data = self.differences.dynamics.data
         found: bytes = data.efc_state.tobytes() + data.contact.geom.tobytes()
         return found

@@ -63,6 +63,7 @@ class Dynamics:
     Attributes
     ----------
     failure : why the last computation has no result, or an empty string.
+    at : the inputs that MuJoCo's memory stands for, and behind them whether it stands for any.
     """
 
     senses = False  # whether sensors are computed
@@ -71,6 +72,7 @@ class Dynamics:
         self.model, self.layout, self.slots = model, layout, Slots.of(layout)
         self.data = data = mujoco().MjData(model)
         self.failure = ""
+        self.at = np.zeros(self.slots.count + 1)
         self._mujoco = mujoco()
         # views of MuJoCo's memory, made once: each access to an attribute of MjData costs a conversion
         self._qpos, self._qvel, self._qacc = data.qpos, data.qvel, data.qacc
@@ -88,6 +90,7 @@ class Dynamics:
     def write(self, inputs: FloatArray) -> None:
         """Set the state and all forces. Wrenches are applied by ``forward``: they need the sites' positions."""
         slots = self.slots
+        self.at[-1] = 0.0
         self._qpos[:] = inputs[slots.qpos]
         self._qvel[:] = inputs[slots.qvel]
         self._applied[self._flange_dofs] = inputs[slots.tau]
@@ -117,11 +120,17 @@ class Dynamics:
 
     def compute(self, inputs: FloatArray) -> bool:
         """Write and compute; False where the inputs are no numbers or MuJoCo has no result."""
+        if self.at[-1] and self.at[:-1].tobytes() == inputs.tobytes():
+            return True
         self.write(inputs)
         if not np.isfinite(inputs.dot(inputs)):
             self.failure = "a position, speed or force is not finite"
             return False
-        return self.forward(inputs)
+        if not self.forward(inputs):
+            return False
+        self.at[:-1] = inputs
+        self.at[-1] = 1.0
+        return True
 
     def read(self, outputs: FloatArray) -> None:
         """Write accelerations and rates of activations to the begin of ``outputs``."""

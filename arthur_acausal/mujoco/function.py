@@ -9,6 +9,7 @@ import numpy as np
 
 from arthur_acausal.mujoco.derivative import MAX_AGE, Differences, Stale
 from arthur_acausal.mujoco.dynamics import FloatArray
+from arthur_acausal.mujoco.native import NativeBody, library
 from arthur_acausal.mujoco.recipe import Recipe
 
 
@@ -24,15 +25,30 @@ class BodyFunction:
         self.recipe, self.observes, self.max_age = recipe, observes, max_age
         self.dynamics = recipe.observing() if observes else recipe.dynamics()
         self.n_inputs, self.n_outputs = self.dynamics.slots.count, self.dynamics.n_outputs
-        self._stale = Stale(Differences(self.dynamics), max_age)
+        self._differences = Differences(self.dynamics)
+        self._stale = Stale(self._differences, max_age)
+        found = None if observes else library()
+        self._native = None if found is None else NativeBody(found, self._differences, max_age)
+
+    @property
+    def native(self) -> tuple[int, int, int] | None:
+        """Addresses of the body and of machine code that evaluates and differentiates it, where there is any."""
+        return None if self._native is None else self._native.addresses
 
     @property
     def failure(self) -> str:
         """Why the last evaluation gave no numbers."""
         return self.dynamics.failure
 
+    @property
+    def renewals(self) -> int:
+        """How often the derivative that is kept was computed."""
+        return self._stale.renewals + (0 if self._native is None else self._native.renewals)
+
     def evaluate(self, inputs: FloatArray, outputs: FloatArray) -> None:
         """Write the accelerations for ``inputs`` into ``outputs``; NaN where MuJoCo has no result."""
+        if self._native is not None and self._native.evaluate(inputs, outputs):
+            return
         if self.dynamics.compute(inputs):
             self.dynamics.read(outputs)
         else:
@@ -40,15 +56,22 @@ class BodyFunction:
 
     def derivative(self, inputs: FloatArray, jacobian: FloatArray) -> None:
         """Write d outputs / d inputs into ``jacobian`` (n_outputs, n_inputs); it may be one of before."""
+        if self._native is not None:
+            if self._native.derivative(inputs, jacobian):
+                return
+            self._stale.restart()  # what it keeps is of long ago
         self._stale.write(inputs, jacobian)
 
     def exact_derivative(self, inputs: FloatArray, jacobian: FloatArray) -> None:
         """Write d outputs / d inputs at these inputs, to about eight digits."""
-        self._stale.differences.write(inputs, jacobian, exact=True)
+        if self._native is None or not self._native.exact_derivative(inputs, jacobian):
+            self._differences.write(inputs, jacobian, exact=True)
 
     def restart(self) -> None:
         """Forget the derivative: something has jumped."""
         self._stale.restart()
+        if self._native is not None:
+            self._native.restart()
 
     def fresh(self) -> BodyFunction:
         """Return an independent function of the same model, for another run."""

@@ -1,7 +1,8 @@
 /* What IDA calls, without the interpreter: the generated residual, Jacobian and root functions on pinned arrays.
 
-   Each function here has a Python twin in callbacks.py, which says what it does, and goes to Python for whatever is
-   rare: a value that is no finite number, a relation that has changed, progress to report, Ctrl-C. */
+   Each function here has a Python twin in callbacks.py, or for external functions in codegen/calls.py, which says what
+   it does, and goes to Python for whatever is rare: a value that is no finite number, a relation that has changed,
+   progress to report, Ctrl-C. */
 
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
@@ -11,6 +12,7 @@
 #include <time.h>
 
 typedef int (*eval_t)(const double **, double **, long long *, double *, int);
+typedef int (*foreign_t)(void *, const double *, double *);
 
 /* Shared with Python as an array of float64; the order is that of FIELDS in native.py. */
 typedef struct {
@@ -20,12 +22,31 @@ typedef struct {
 enum { GOING, MAX_STEPS, STALLED_AT, INTERRUPTED };
 static const double STALLED = 4e15, TINY = 1e-300;
 
+/* A generated function with its arrays. */
 typedef struct {
   eval_t fn;
   const double **arg;
   double **res;
   long long *iw;
   double *w;
+} Generated;
+
+enum { NOTHING, OUTPUTS, SLOPES };
+
+/* A call of an external function; see Step in codegen/calls.py. */
+typedef struct {
+  Generated inputs;
+  const double *value; /* of the inputs */
+  double *key;
+  int64_t *known;
+  int64_t bytes; /* of the inputs */
+  void *self;
+  foreign_t evaluate, derivative; /* none: Python serves */
+  double *outputs, *slopes;
+} External;
+
+typedef struct {
+  const Generated *generated;
   Py_ssize_t n, m; /* unknowns, numbers in the result */
   double *t, *y, *yp, *cj, *value;
   Counts *counts;
@@ -33,7 +54,11 @@ typedef struct {
   Py_ssize_t places;
   const double *zero;         /* what is added to a root function */
   const unsigned char *modes; /* truth values at present */
-  PyObject *slow, *progress, *keep;
+  const External *externals;
+  Py_ssize_t externals_count;
+  int64_t wanted; /* of the external functions */
+  double *tally;  /* their evaluations, and seconds in them */
+  PyObject *slow, *progress, *prepare, *keep;
 } Call;
 
 static double now(void) {
@@ -77,6 +102,39 @@ static int take(Call *c, PyObject *const *args) {
   memcpy(c->yp, b.buf, (size_t)b.len);
   PyBuffer_Release(&b);
   return 0;
+}
+
+static void run(const Generated *g) { g->fn(g->arg, g->res, g->iw, g->w, 0); }
+
+/* Run one function of an external one; nonzero: Python is to do it. */
+static int foreign(Call *c, const External *e, foreign_t function, double *out) {
+  if (!function) return 1;
+  double begun = now();
+  int left = function(e->self, e->value, out);
+  c->tally[1] += now() - begun;
+  return left;
+}
+
+/* Bring the external functions up to date with the arguments; -1: an exception. */
+static int prepared(Call *c) {
+  const External *end = c->externals + c->externals_count;
+  int left = 0;
+  for (const External *e = c->externals; !left && e < end; ++e) {
+    run(&e->inputs);
+    if (*e->known != NOTHING && !memcmp(e->value, e->key, (size_t)e->bytes)) continue;
+    *e->known = NOTHING;
+    left = foreign(c, e, e->evaluate, e->outputs);
+    if (left) break;
+    memcpy(e->key, e->value, (size_t)e->bytes);
+    *e->known = OUTPUTS;
+    c->tally[0] += 1.0;
+  }
+  for (const External *e = c->externals; !left && e < end; ++e)
+    if (*e->known < c->wanted && !(left = foreign(c, e, e->derivative, e->slopes))) *e->known = SLOPES;
+  if (!left) return 0;
+  PyObject *done = PyObject_CallNoArgs(c->prepare);
+  Py_XDECREF(done);
+  return done ? 0 : -1;
 }
 
 static int attempt(Call *c, double t) {
@@ -129,13 +187,13 @@ static PyObject *residual(PyObject *self, PyObject *const *args, Py_ssize_t narg
   if (c->counts->halted == GOING) {
     c->counts->residuals += 1.0;
     if (take(c, args)) goto failed;
-    c->fn(c->arg, c->res, c->iw, c->w, 0);
-    good = all_finite(c->value, c->n);
-    if (!good) {
-      int refused = ask(c);
-      if (refused < 0 && halted_by_exception(c)) goto failed;
-      good = refused == 0;
+    int refused = prepared(c);
+    if (!refused) {
+      run(c->generated);
+      if (!all_finite(c->value, c->n)) refused = ask(c);
     }
+    if (refused < 0 && halted_by_exception(c)) goto failed;
+    good = refused == 0;
   }
   if (good)
     memcpy(r, c->value, (size_t)out.len);
@@ -157,7 +215,11 @@ static PyObject *jacobian(PyObject *self, PyObject *const *args, Py_ssize_t narg
   k->jacobians += 1.0;
   if (take(c, args) || time_of(args[4], c->cj)) return NULL;
   if (*c->cj * fabs(*c->t) > STALLED) k->halted = STALLED_AT;
-  c->fn(c->arg, c->res, c->iw, c->w, 0);
+  if (prepared(c)) {
+    if (halted_by_exception(c)) return NULL;
+    Py_RETURN_NONE;
+  }
+  run(c->generated);
   if (!all_finite(c->value, c->m) && ask(c) < 0 && halted_by_exception(c)) return NULL;
   Py_buffer out;
   if (buffer_of(args[5], &out, c->place ? c->n * c->n : c->m, 1)) return NULL;
@@ -176,11 +238,17 @@ static PyObject *roots(PyObject *self, PyObject *const *args, Py_ssize_t nargs) 
   Py_buffer out;
   if (!c || nargs != 4 || buffer_of(args[3], &out, c->places, 1)) return NULL;
   double *g = out.buf;
-  int differs = 0;
-  if (c->counts->halted == GOING) {
+  int differs = 0, going = c->counts->halted == GOING;
+  if (going) {
     c->counts->roots += 1.0;
     if (take(c, args)) goto failed;
-    c->fn(c->arg, c->res, c->iw, c->w, 0);
+    if (prepared(c)) {
+      if (halted_by_exception(c)) goto failed;
+      going = 0;
+    }
+  }
+  if (going) {
+    run(c->generated);
     for (Py_ssize_t i = 0; i < c->places; ++i) {
       g[i] = c->value[c->place[i]] + c->zero[i];
       differs |= (g[i] > 0.0) != c->modes[i];
@@ -210,29 +278,27 @@ static void release(PyObject *capsule) {
   Call *c = call_of(capsule);
   Py_XDECREF(c->slow);
   Py_XDECREF(c->progress);
+  Py_XDECREF(c->prepare);
   Py_XDECREF(c->keep);
   PyMem_Free(c);
 }
 
 static double *address(unsigned long long a) { return (double *)(uintptr_t)a; }
 
-/* bind(kind, fn, arg, res, iw, w, n, m, t, y, yp, cj, value, counts, place, places, zero, modes, slow, progress, keep):
-   addresses as integers, 0 for none; `keep` holds the arrays. */
+/* bind(kind, generated, n, m, t, y, yp, cj, value, counts, place, places, zero, modes, externals, count, wanted, tally,
+   slow, progress, prepare, keep): addresses as integers, 0 for none; `keep` holds the arrays. */
 static PyObject *bind(PyObject *module, PyObject *args) {
-  unsigned long long fn, arg, res, iw, w, t, y, yp, cj, value, counts, place, zero, modes;
-  Py_ssize_t n, m, places;
-  int kind;
-  PyObject *slow, *progress, *keep;
-  if (!PyArg_ParseTuple(args, "iKKKKKnnKKKKKKKnKKOOO", &kind, &fn, &arg, &res, &iw, &w, &n, &m, &t, &y, &yp, &cj,
-                        &value, &counts, &place, &places, &zero, &modes, &slow, &progress, &keep))
+  unsigned long long generated, t, y, yp, cj, value, counts, place, zero, modes, externals, tally;
+  Py_ssize_t n, m, places, externals_count;
+  int kind, wanted;
+  PyObject *slow, *progress, *prepare, *keep;
+  if (!PyArg_ParseTuple(args, "iKnnKKKKKKKnKKKniKOOOO", &kind, &generated, &n, &m, &t, &y, &yp, &cj, &value, &counts,
+                        &place, &places, &zero, &modes, &externals, &externals_count, &wanted, &tally, &slow, &progress,
+                        &prepare, &keep))
     return NULL;
   Call *c = PyMem_Calloc(1, sizeof(Call));
   if (!c) return PyErr_NoMemory();
-  c->fn = (eval_t)(uintptr_t)fn;
-  c->arg = (const double **)(uintptr_t)arg;
-  c->res = (double **)(uintptr_t)res;
-  c->iw = (long long *)(uintptr_t)iw;
-  c->w = address(w);
+  c->generated = (const Generated *)(uintptr_t)generated;
   c->n = n;
   c->m = m;
   c->t = address(t);
@@ -245,8 +311,13 @@ static PyObject *bind(PyObject *module, PyObject *args) {
   c->places = places;
   c->zero = address(zero);
   c->modes = (const unsigned char *)(uintptr_t)modes;
+  c->externals = (const External *)(uintptr_t)externals;
+  c->externals_count = externals_count;
+  c->wanted = wanted;
+  c->tally = address(tally);
   c->slow = Py_NewRef(slow);
   c->progress = Py_NewRef(progress);
+  c->prepare = Py_NewRef(prepare);
   c->keep = Py_NewRef(keep);
   PyObject *capsule = PyCapsule_New(c, "arthur.call", release);
   if (!capsule) return NULL;

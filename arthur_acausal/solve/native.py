@@ -10,7 +10,6 @@ import ctypes
 import importlib.machinery
 import importlib.util
 import logging
-import subprocess
 import sys
 import sysconfig
 from collections.abc import Callable
@@ -21,8 +20,9 @@ from typing import Any
 
 import numpy as np
 
-from arthur_acausal.codegen.cache import default_cache, make_key
-from arthur_acausal.codegen.kernel import Kernel, compiler
+from arthur_acausal.codegen.build import compile_c
+from arthur_acausal.codegen.calls import OUTPUTS, SLOPES, Calls, Prepared, Step
+from arthur_acausal.codegen.kernel import Kernel
 from arthur_acausal.solve.callbacks import WATCHED, Monitor, Roots, dense_places
 from arthur_acausal.solve.protocol import DAE, Evaluator
 
@@ -43,27 +43,20 @@ RESIDUAL, JACOBIAN, ROOTS = range(3)
 @cache
 def extension() -> Any:
     """Return the extension module, None where it cannot be built or loaded."""
-    command = compiler()
     include = sysconfig.get_paths()["include"]
-    if command is None or sys.platform == "win32" or not Path(include, "Python.h").exists():
+    if sys.platform == "win32" or not Path(include, "Python.h").exists():
         return None
-    source = Path(__file__).with_name("native.c")
-
-    def build(path: Path) -> None:
-        flags = ["-O2", "-fPIC", "-shared", "-ffp-contract=off", f"-I{include}"]
-        words = [*command, *flags, str(source), "-o", str(path), "-lm"]
-        subprocess.run(words, check=True, capture_output=True, stdin=subprocess.DEVNULL, timeout=60.0)
-
+    library = compile_c(Path(__file__).with_name("native.c"), f"-I{include}", version=sys.version)
+    if library is None:
+        return None
     try:
-        key = make_key("native", sys.version, " ".join(command), source.read_bytes())
-        library = default_cache().path_of_library(key, build)
         loader = importlib.machinery.ExtensionFileLoader("arthur_native", str(library))
         spec = importlib.util.spec_from_file_location("arthur_native", library, loader=loader)
         assert spec is not None  # a loader was given
         module = importlib.util.module_from_spec(spec)
         loader.exec_module(module)
-    except (OSError, ImportError, subprocess.SubprocessError) as error:
-        LOGGER.info("callbacks stay in Python, for the extension in C cannot be built: %s", error)
+    except (OSError, ImportError) as error:
+        LOGGER.info("callbacks stay in Python, for the extension in C cannot be loaded: %s", error)
         return None
     return module
 
@@ -100,7 +93,7 @@ class Native:
         cls, dae: DAE, evaluator: Evaluator, roots: Roots, monitor: Monitor, varying: bool, dense: bool
     ) -> Native | None:
         """Return the callbacks in C, None where they cannot serve: functions that are not machine code, inputs
-        that vary, external functions."""
+        that vary."""
         kernels = [evaluator.residual, evaluator.jacobian, *([evaluator.roots] if roots.index.size else [])]
         able = dae.n and not varying and all(_is_compiled(kernel) for kernel in kernels)
         module = extension() if able else None
@@ -139,36 +132,26 @@ class Native:
         if bad.size:
             self._monitor.jacobian_offence = (float(self._evaluator.t[0]), int(bad[0]))
 
-    def _bind(self, kind: int, kernel: Any, slow: Callable[..., object], place: Any = None) -> Any:
-        function, evaluator, roots = kernel.function, self._evaluator, self._roots
-        library = ctypes.CDLL(str(function.library))
-        sizes = (ctypes.c_longlong * 4)()
-        work = getattr(library, f"{function.name()}_work")
-        work(*(ctypes.byref(sizes, 8 * k) for k in range(4)))
-        arg = np.zeros(sizes[0] + 1, dtype=np.uint64)
-        res = np.zeros(sizes[1] + 1, dtype=np.uint64)
-        iw, w = np.zeros(sizes[2] + 1, dtype=np.int64), np.zeros(sizes[3] + 1)
-        arg[: len(kernel.inputs)] = [array.ctypes.data for array in kernel.inputs]
-        res[: len(kernel.outputs)] = [array.ctypes.data for array in kernel.outputs]
-        address = ctypes.cast(getattr(library, function.name()), ctypes.c_void_p).value
+    def _bind(self, kind: int, function: Any, slow: Callable[..., object], place: Any = None) -> Any:
+        evaluator, roots, calls = self._evaluator, self._roots, self._evaluator.external
+        kernel, steps = _parts(function)
+        generated, made = _generated(kernel), [_external(step) for step in steps]
+        externals = (_External * len(steps))(*made)
+        tally = calls.tally if isinstance(calls, Calls) else np.zeros(2)
         keep = (
-            kernel,
-            library,
-            arg,
-            res,
-            iw,
-            w,
+            generated,
+            made,
+            externals,
+            tally,
             self._counts,
             place,
             roots.sign_of_zero,
             roots.modes,
             evaluator,
         )
-        progress = self._monitor.progress
         return self._module.bind(
             kind,
-            address,
-            *(array.ctypes.data for array in (arg, res, iw, w)),
+            ctypes.addressof(generated),
             self._dae.n,
             kernel.result.size,
             *(array.ctypes.data for array in (evaluator.t, evaluator.y, evaluator.yp, evaluator.cj)),
@@ -178,11 +161,75 @@ class Native:
             0 if place is None else place.size,
             roots.sign_of_zero.ctypes.data,
             roots.modes.ctypes.data,
+            ctypes.addressof(externals),
+            len(steps),
+            SLOPES if steps and function.derivatives else OUTPUTS,
+            tally.ctypes.data,
             slow,
-            progress,
+            self._monitor.progress,
+            function.prepare if steps else None,
             keep,
         )
 
 
-def _is_compiled(kernel: object) -> bool:
-    return isinstance(kernel, Kernel) and hasattr(kernel.function, "library")
+class _Generated(ctypes.Structure):
+    """Generated of native.c. ``keep``: what the addresses need, as in what follows."""
+
+    _fields_ = tuple((name, ctypes.c_void_p) for name in ("fn", "arg", "res", "iw", "w"))
+    keep: Any
+
+
+class _External(ctypes.Structure):
+    """External of native.c."""
+
+    _fields_ = (
+        ("inputs", _Generated),
+        *((name, ctypes.c_void_p) for name in ("value", "key", "known")),
+        ("bytes", ctypes.c_int64),
+        *((name, ctypes.c_void_p) for name in ("self", "evaluate", "derivative", "outputs", "slopes")),
+    )
+    keep: Any
+
+
+def _generated(kernel: Kernel) -> _Generated:
+    """Return the machine code of a kernel, with working memory of its own."""
+    function: Any = kernel.function
+    library = ctypes.CDLL(str(function.library))
+    sizes = (ctypes.c_longlong * 4)()
+    work = getattr(library, f"{function.name()}_work")
+    work(*(ctypes.byref(sizes, 8 * k) for k in range(4)))
+    arg = np.zeros(sizes[0] + 1, dtype=np.uint64)
+    res = np.zeros(sizes[1] + 1, dtype=np.uint64)
+    iw, w = np.zeros(sizes[2] + 1, dtype=np.int64), np.zeros(sizes[3] + 1)
+    arg[: len(kernel.inputs)] = [array.ctypes.data for array in kernel.inputs]
+    res[: len(kernel.outputs)] = [array.ctypes.data for array in kernel.outputs]
+    address = ctypes.cast(getattr(library, function.name()), ctypes.c_void_p).value
+    made = _Generated(address, *(array.ctypes.data for array in (arg, res, iw, w)))
+    made.keep = kernel, library, arg, res, iw, w
+    return made
+
+
+def _external(step: Step) -> _External:
+    """Return a call of an external function; one without machine code is left to Python."""
+    own, evaluate, derivative = getattr(step.function, "native", None) or (0, 0, 0)
+    generated = _generated(step.inputs)
+    arrays = (step.inputs.result, step.key, step.known)
+    addresses = [array.ctypes.data for array in arrays]
+    results = [array.ctypes.data for array in (step.outputs, step.slopes)]
+    made = _External(generated, *addresses, step.key.nbytes, own, evaluate, derivative, *results)
+    made.keep = generated, step
+    return made
+
+
+def _parts(function: object) -> tuple[Any, list[Step]]:
+    """Return a kernel, and the calls before it."""
+    if isinstance(function, Prepared):
+        return function.kernel, list(function.steps)
+    return function, []
+
+
+def _is_compiled(function: object) -> bool:
+    """Whether a kernel is machine code, and so are the inputs of all calls before it."""
+    kernel, steps = _parts(function)
+    kernels = [kernel, *(step.inputs for step in steps)]
+    return all(isinstance(k, Kernel) and hasattr(k.function, "library") for k in kernels)

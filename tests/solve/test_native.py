@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
+from pathlib import Path
+
 import casadi
 import numpy as np
 import pytest
@@ -13,6 +16,7 @@ from arthur_acausal import (
     SimulationError,
     Solution,
     SolverOptions,
+    compile_c,
     der,
     parameter,
     translate,
@@ -25,6 +29,8 @@ from arthur_acausal.models.examples.jack import Jack
 from arthur_acausal.models.examples.rc_ladder import RCLadder
 from arthur_acausal.result.simulated import Interrupted
 from arthur_acausal.solve import native
+from tests.codegen.external_functions import FloatArray, Numeric
+from tests.solve.test_external import Bouncing, Duffing, duffing
 
 pytestmark = pytest.mark.skipif(native.extension() is None, reason="no C compiler, or no headers of Python")
 
@@ -137,3 +143,100 @@ def test_an_error_in_progress_passes() -> None:
         translate(Jack(), compile="always").simulate(
             1e6, options=SolverOptions(max_step=1e-3, intervals=10**6), progress=progress
         )
+
+
+SPRING = """
+int evaluate(void *self, const double *in, double *out) {
+  double *range = self;
+  range[1] += 1.0;
+  if (in[0] > range[0]) return 1;
+  out[0] = in[0] - in[0] * in[0] * in[0] - 0.1 * in[1];
+  return 0;
+}
+int derivative(void *self, const double *in, double *out) {
+  out[0] = 1.0 - 3.0 * in[0] * in[0];
+  out[1] = -0.1;
+  return 0;
+}
+"""
+
+
+class Spring:
+    """The law of `Duffing` in C for s up to ``range``, beyond in Python; ``calls``: of it."""
+
+    name, n_inputs, n_outputs = "spring", 2, 1
+
+    def __init__(self, library: ctypes.CDLL, range: float) -> None:
+        self._library, self.calls, self.copies = library, 0, list[Spring]()
+        self.memory = np.array([range, 0.0])
+        code = [ctypes.cast(f, ctypes.c_void_p).value or 0 for f in (library.evaluate, library.derivative)]
+        self.native = (self.memory.ctypes.data, *code)
+
+    def fresh(self) -> Spring:
+        self.copies.append(Spring(self._library, float(self.memory[0])))
+        return self.copies[-1]
+
+    def evaluate(self, inputs: FloatArray, outputs: FloatArray) -> None:
+        self.calls += 1
+        s, v = inputs.tolist()
+        outputs[0] = s - s * s * s - 0.1 * v
+
+    def derivative(self, inputs: FloatArray, jacobian: FloatArray) -> None:
+        jacobian[0] = 1.0 - 3.0 * inputs[0] * inputs[0], -0.1
+
+
+def test_external_functions_in_c_and_in_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    source = tmp_path / "spring.c"
+    source.write_text(SPRING)
+    library = compile_c(source)
+    assert library is not None
+    loaded = ctypes.CDLL(str(library))
+    solutions, calls = [], []
+    for law in (Spring(loaded, np.inf), Spring(loaded, 1.0), Numeric(duffing, 2, 1)):
+        c, python = both(Duffing(function=law), 20.0, SolverOptions(rtol=1e-8), monkeypatch)
+        assert isinstance(c, Solution)
+        assert isinstance(python, Solution)
+        np.testing.assert_array_equal(c.values(c.paths), python.values(python.paths))
+        assert c.statistics.external_calls == python.statistics.external_calls > 100
+        solutions.append(c)
+        calls.append(law.copies[0].calls if isinstance(law, Spring) else 0)
+        if isinstance(law, Spring):
+            assert law.copies[0].memory[1] > 100
+    assert 0 <= calls[0] < 10 < calls[1] < solutions[1].statistics.external_calls
+    np.testing.assert_array_equal(solutions[0]["s"], solutions[1]["s"])
+    assert np.max(np.abs(solutions[2]["s"] - solutions[0]["s"])) < 1e-6
+
+
+def test_external_functions_and_events(monkeypatch: pytest.MonkeyPatch) -> None:
+    law = Numeric(lambda x: -9.81 * (1.0 + 1e-3 * x[0]), 1, 1)
+    c, python = both(Bouncing(function=law), 4.0, SolverOptions(rtol=1e-8), monkeypatch)
+    assert isinstance(c, Solution)
+    assert isinstance(python, Solution)
+    assert c.statistics.state_events == python.statistics.state_events > 2
+    np.testing.assert_array_equal(c.values(c.paths), python.values(python.paths))
+
+
+def test_external_functions_meet_trouble_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    def raising(x: FloatArray) -> float:
+        if x[0] > 0.5:
+            raise ValueError("beyond the table")
+        return 1.0
+
+    for law in (raising, lambda x: np.sqrt(0.5 - x[0]) if x[0] < 0.5 else np.nan):
+        c, python = both(Duffing(function=Numeric(law, 2, 1)), 10.0, SolverOptions(), monkeypatch)
+        assert isinstance(c, SimulationError)
+        assert isinstance(python, SimulationError)
+        assert str(c) == str(python)
+        np.testing.assert_array_equal(c.solution.t, python.solution.t)
+
+
+def test_an_interrupt_within_an_external_function_keeps_what_was_computed() -> None:
+    def law(x: FloatArray) -> float:
+        if x[0] > 0.5:
+            raise KeyboardInterrupt
+        return 1.0
+
+    translation = translate(Duffing(function=Numeric(law, 2, 1)), compile="always")
+    with pytest.raises(Interrupted) as caught:
+        translation.simulate(10.0)
+    assert 0.0 < caught.value.solution["s"][-1] < 0.51
