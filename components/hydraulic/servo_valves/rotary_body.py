@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import pi
 from typing import Literal
 
-from casadi import SX, asin, cos, fmin, sin, sqrt
+from casadi import SX, asin, cos, fabs, fmax, fmin, sin, sqrt
 
-from arthur_acausal import Component, Real, parameter
+from arthur_acausal import Component, Real, parameter, smooth_if_else
 from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic.fluid import Fluid
 from arthur_acausal.components.hydraulic.servo_valves.jets import JetAngle
@@ -34,6 +34,9 @@ class RotaryBody(Component):
 
     C_d, C_v, L_A and L_B are assumed: the report lacks them. ``C_c`` = 1 leaves the contraction out, as 3.29 to 3.31
     are printed. ``phi_error`` [rad] is added to the jet's angle: what a rough passage (4.1.1) may do.
+
+    ``offset`` [1] of the port's width: the inlet of each passage lags and the outlet leads by half of it, so that
+    beyond the middle one jet opens (section 4.2's antagonistic spool, in series in each passage). 0: none.
     """
 
     shape: Shape = "square"
@@ -60,6 +63,7 @@ class RotaryBody(Component):
     C_c: Real = parameter("1", default=lambda self: self.C_d / self.C_v, min=0.0, description="3.10")
     F_small: Real = parameter("N", default=1e-6, min=0.0, description="keeps the radial force smooth at 0")
     phi_error: Real = parameter("rad", default=0.0, description="deviation of the jet's angle")
+    offset: Real = parameter("1", default=0.0, min=0.0, max=1.0, description="over the port's width")
 
     def build(self) -> None:
         check_choice(self, "shape", Shape)
@@ -84,6 +88,10 @@ class RotaryBody(Component):
     def pitch(self) -> SX:
         """Return theta_pp [rad], the angle between adjacent ports, 23.98 deg."""
         return self.gap + self.port_angle()
+
+    def port(self, past: SX) -> tuple[SX, SX]:
+        """Return the opening [1] of a port ``past`` widths beyond alignment; +1 where its jet closes, else -1."""
+        return fmin(fmax(1 - fabs(past), 0), 1), smooth_if_else(past > 0, -1, 1)
 
     # --- flow
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from casadi import SX, fabs, fmax, fmin, sqrt
+from casadi import SX, fmax, sqrt
 
-from arthur_acausal import Equations, Real, der, parameter, smooth_if_else, time, variable
+from arthur_acausal import Equations, Real, der, parameter, time, variable
 from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic.servo_valves import RotaryBody, SpoolBody
 from arthur_acausal.components.hydraulic.servo_valves.jets import (
@@ -33,16 +33,12 @@ class RotaryStroke(RotaryBody):
     alpha = 4 dtheta/t_res^2 and the speed when it is highest is 2 dtheta/t_res, with dtheta the overlap and xi/r_c. The
     load takes two thirds of the supply's pressure (3.45) through a cylinder of the area ratio ``AR`` (3.28). Works
     [J] are the torques integrated over the angle from s = 0.
-
-    ``offset`` [1] of the port's width: the inlet of each passage lags and the outlet leads by half of it, so that
-    beyond the middle one jet opens (section 4.2's antagonistic spool, in series in each passage). 0: none.
     """
 
     p_S: Real = parameter("Pa", default=2900 * PSI, display="bar")
     p_R: Real = parameter("Pa", default=14.5 * PSI, display="bar")
     t_res: Real = parameter("s", default=3e-3, min=0.0, description="response time")
     AR: Real = parameter("1", default=0.25, description="rod area over bore area; assumed")
-    offset: Real = parameter("1", default=0.0, min=0.0, max=1.0, description="over the port's width")
     duration: Real = parameter("s", default=1.0, min=0.0, description="of the model's time")
     s: Real = variable("1")
     s_1: Real = variable("1", description="opening of the inlets")
@@ -67,17 +63,11 @@ class RotaryStroke(RotaryBody):
     W_no_jet: Real = variable("J", nominal=1e-4)
     W_with_jet: Real = variable("J", nominal=1e-4)
 
-    def build(self) -> None:
-        super().build()
-
-    def port(self, lead: SX) -> tuple[SX, SX]:
-        """Return the opening of a port ahead by ``lead`` [1], and 1 where its jet closes the valve, else -1."""
-        past = self.s - 1 + lead
-        return fmin(fmax(1 - fabs(past), 0), 1), smooth_if_else(past > 0, -1, 1)
-
     def equations(self) -> Equations:
         g = 1 - self.AR
-        (s_1, side_1), (s_2, side_2) = self.port(-self.offset / 2), self.port(self.offset / 2)
+        (s_1, side_1), (s_2, side_2) = (
+            self.port(self.s - 1 + lead) for lead in (-self.offset / 2, self.offset / 2)
+        )
         A_1, A_2 = self.area(s_1), self.area(s_2)
         yield self.s == time() / self.duration
         yield self.s_1 == s_1

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from casadi import SX, fabs, fmax, fmin
+from casadi import SX
 
-from arthur_acausal import Equations, Real, parameter, smooth_if_else, time, variable
+from arthur_acausal import Equations, Real, parameter, time, variable
 from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic.servo_valves import RotaryBody
 from arthur_acausal.components.hydraulic.servo_valves.jets import (
@@ -40,9 +40,7 @@ class Testbed(RotaryBody):
     p_S: Real = parameter("Pa", default=500 * PSI, display="bar")
     p_R: Real = parameter("Pa", default=14.5 * PSI, display="bar")
     scale: Real = parameter("1", default=3.0, min=0.0, description="over the case study's; assumed")
-    offset: Real = parameter(
-        "1", default=0.5, min=0.0, max=1.0, description="of the antagonistic spool; assumed"
-    )
+    offset: Real = parameter("1", default=0.5, min=0.0, max=1.0, description="assumed")
     duration: Real = parameter("s", default=1.0, min=0.0, description="of the model's time")
     z: Real = variable("1")
     phi_1: Real = variable("rad", start=0.5, description="3.6, first port")
@@ -62,14 +60,9 @@ class Testbed(RotaryBody):
         super().build()
         check_choice(self, "spool", Spool)
 
-    def port(self, lead: SX | float) -> tuple[SX, SX]:
-        """Return a port's opening, and 1 before its alignment, -1 past it: where its jet pushes."""
-        past = self.z + lead
-        return fmin(fmax(1 - fabs(past), 0), 1), smooth_if_else(past > 0, -1, 1)
-
     def equations(self) -> Equations:
         lead = self.offset / 2 if self.spool == "antagonistic" else 0
-        (s_1, side_1), (s_2, side_2) = self.port(-lead), self.port(lead)
+        (s_1, side_1), (s_2, side_2) = self.port(self.z - lead), self.port(self.z + lead)
         rho, size = self.fluid.rho, self.scale**2
         A_1, A_2 = size * self.area(s_1), size * self.area(s_2)
         A_p, ratio = size * self.area(SX(1)), self.d_p / self.delta_r
