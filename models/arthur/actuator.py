@@ -13,6 +13,7 @@ from arthur_acausal.components.robotics import CylinderLinkage
 from arthur_acausal.components.translational import ForceSensor, SpeedSensor
 from arthur_acausal.models.arthur.force_control import BareControl, FeedForwardControl
 from arthur_acausal.models.arthur.linkages import JointLinkage
+from arthur_acausal.models.arthur.valves.direct import ValveKind, servo_valve
 
 ForceLaw = Literal["feed-forward", "bare"]
 
@@ -28,6 +29,7 @@ class Actuator(Component):
 
     Structural parameters: ``linkage_of``, the joint's linkage; ``direction``, +1 where extension increases the
     angle; ``law``, "feed-forward" or the report's "bare" PID (see FeedForwardControl, BareControl);
+    ``valve_kind``: "ideal", or "rotary" or "spool", the valves of the report's case studies on their drives;
     ``start_at_demand``: False where something else decides about the force at the start, as the balance of a body.
     """
 
@@ -35,6 +37,7 @@ class Actuator(Component):
     direction: int = 1
     law: ForceLaw = "feed-forward"
     spool: Spool = "second order"
+    valve_kind: ValveKind = "ideal"
     start_at_demand: bool = True
     supply = HydraulicPort()
     tank = HydraulicPort()
@@ -55,12 +58,13 @@ class Actuator(Component):
 
     def build(self) -> None:
         check_choice(self, "law", ForceLaw)
+        check_choice(self, "valve_kind", ValveKind)
         size = self.linkage_of
         triangle = size.triangle(self.direction)
         self.linkage = CylinderLinkage(
             a=triangle.a, b=triangle.b, psi_0=triangle.psi_0, direction=triangle.direction, l_0=size.l_0
         )
-        self.valve = ServoValve(spool=self.spool, q_rated=self.q_rated)
+        self.valve = servo_valve(self.valve_kind, ServoValve(spool=self.spool, q_rated=self.q_rated))
         self.cylinder = Cylinder(
             inertia=False,
             c=self.c,
@@ -115,8 +119,9 @@ class Actuator(Component):
     def initial_equations(self) -> Equations:
         cylinder = self.cylinder
         yield "mean pressure", cylinder.p_A + cylinder.p_B == self.supply.p + self.tank.p
-        yield "valve closed", self.valve.x == 0
-        yield "valve at rest", self.valve.v == 0
+        if isinstance(self.valve, ServoValve):  # a drive has its own start
+            yield "valve closed", self.valve.x == 0
+            yield "valve at rest", self.valve.v == 0
         yield "no integral", self.control.x == 0
         if self.start_at_demand:
             yield "force as asked", self.control.e == 0

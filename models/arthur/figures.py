@@ -52,6 +52,32 @@ def figures(solution: Solution, payload: float) -> dict[str, Any]:
     return {"locomotion": walked, "cost_of_transport": energy / (weight * far) if moved else None}
 
 
+def valve_actuation(solution: Solution) -> dict[str, float]:
+    """Return what the drives of the robot's driven valves took, a valve: mean powers [W], and the largest torque [N m].
+
+    ``mechanical_W`` counts what the valves take, not what they give back; ``copper_W`` is that of the windings.
+    ``force_tracking_rms`` is the rms error of these cylinders' forces over the rms of the demand.
+    """
+    drives = solution.select("actuators[*].valve.drive.P")
+    actuators = [path.removesuffix(".valve.drive.P") for path in drives]
+
+    def of_all(signal: str) -> FloatArray:
+        return solution.values([f"{actuator}.{signal}" for actuator in actuators])
+
+    def mean(power: FloatArray) -> float:
+        return float(np.trapezoid(power.mean(axis=1), solution.t) / np.ptp(solution.t))
+
+    error, demand = of_all("control.e"), of_all("F_d")
+    return {
+        "valves": len(actuators),
+        "mechanical_W": mean(np.maximum(of_all("valve.drive.P"), 0.0)),
+        "copper_W": mean(of_all("valve.drive.P_copper")),
+        "torque_max_Nm": float(np.abs(of_all("valve.drive.flange.tau")).max()),
+        "opening_max": float(np.abs(of_all("valve.drive.opening")).max()),
+        "force_tracking_rms": float(np.sqrt(np.mean(error**2) / np.mean(demand**2))),
+    }
+
+
 def attitude(solution: Solution) -> FloatArray:
     """Return roll and pitch of the trunk [rad], (2, nt)."""
     w, x, y, z = (solution[f"body.base_q_{axis}"] for axis in "wxyz")

@@ -12,12 +12,16 @@ from arthur_acausal.models.arthur.dimensions import JOINTS, LEGS
 from arthur_acausal.models.arthur.linkages import LINKAGES, direction_of
 from arthur_acausal.models.arthur.power_unit import POWERS, STORED, PowerUnit
 from arthur_acausal.models.arthur.quadruped_options import QuadrupedOptions
+from arthur_acausal.models.arthur.valves.direct import ValveKind
+
+DIRECT_LEG = "FL"
 
 
 class Hydraulics(Component):
     """Battery, pump and the actuators of twelve joints, in the order of JOINT_NAMES.
 
-    ``audit`` integrates the battery's energy, each loss and the work on the joints.
+    ``audit`` integrates the battery's energy, each loss and the work on the joints. ``valve``: the servo valves of the
+    leg DIRECT_LEG, "ideal" as all others, or "rotary" or "spool", with their loads and drives.
 
     A subclass connects each flange ``actuators[i].joint`` to what it turns, and gives the force that the cylinder is
     asked for, ``actuators[i].F_d`` [N].
@@ -25,6 +29,7 @@ class Hydraulics(Component):
 
     start_at_demand: bool = True
     audit: bool = False
+    valve: ValveKind = "ideal"
     options: QuadrupedOptions = QuadrupedOptions()
     fluid: Fluid = Fluid()
 
@@ -51,6 +56,7 @@ class Hydraulics(Component):
                 direction=direction_of(leg, joint),
                 law=choice.force,
                 spool=choice.spool,
+                valve_kind=self.valve if leg == DIRECT_LEG else "ideal",
                 q_rated=choice.q_rated,
                 c=choice.c,
                 start_at_demand=self.start_at_demand,

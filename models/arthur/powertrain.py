@@ -9,6 +9,7 @@ from casadi import SX
 
 from arthur_acausal import Component, Equations, Real, Solution, connect, der, parameter, start
 from arthur_acausal.components.blocks import EnergyMeter
+from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic import (
     GPM,
     BatteryDrive,
@@ -29,6 +30,7 @@ from arthur_acausal.components.hydraulic import (
 from arthur_acausal.components.translational import LoadForce
 from arthur_acausal.models.arthur.energy import audit_terms, powers
 from arthur_acausal.models.arthur.options import Options, options_of
+from arthur_acausal.models.arthur.valves.direct import DirectValve, ValveKind, servo_valve
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -52,7 +54,8 @@ class Powertrain(Component):
     each loss and the work. Each energy comes from its own law, none is a difference: a flow q carries rho q
     h(p), a volume stores V (rho h - p), h being the integral of dp/rho. ``balanced``: the pressures at the
     start are no more than guesses; the pistons begin without acceleration under their loads, and the
-    manifold in balance with the pump's flow at its speed.
+    manifold in balance with the pump's flow at its speed; ``valve``: "ideal" valves, or the report's "rotary" ones or
+    "spool" valves with their loads, each on its drive (see RotaryServoValve, SpoolServoValve).
 
     Parameters: the report's top-level constants, which it does not give: the flow ``Q_req`` (1 gpm) at the
     speed ``N_0`` (5000 rpm) by which the pump is sized with the efficiency ``eta_v`` (or, consistently,
@@ -65,6 +68,7 @@ class Powertrain(Component):
     options: Options | None = None
     audit: bool = True
     balanced: bool = False
+    valve: ValveKind = "ideal"
     fluid: Fluid = Fluid()
     Q_req: Real = parameter("m^3/s", default=GPM, min=0.0, display="gpm", description="pump sizing; assumed")
     N_0: Real = parameter("rad/s", default=5000 * 2 * pi / 60, min=0.0, display="rpm", description="assumed")
@@ -75,6 +79,7 @@ class Powertrain(Component):
     RR_G: Real = parameter("1/m^3", default=1e8, min=0.0, description="gear reluctance, Table 7")
 
     def build(self) -> None:
+        check_choice(self, "valve", ValveKind)
         self.choice = choice = self._choice()
         self._choose_fluid()
         self.motor = BrushlessMotor(
@@ -90,7 +95,8 @@ class Powertrain(Component):
         self.relief = ReliefValve(law=choice.relief_law)
         kind = Filter if choice.filter_drop == "own flow" else SignalFilter
         self.filter = kind(p_s=start(P_START))
-        self.valves = [self.make_valve() for _ in range(self.n)]
+        ideal = [ServoValve(law=choice.valve_law, spool=choice.spool) for _ in range(self.n)]
+        self.valves: list[ServoValve | DirectValve] = [servo_valve(self.valve, one) for one in ideal]
         self.cylinders = [self._cylinder(i) for i in range(self.n)]
         self.loads = [LoadForce() for _ in range(self.n)]
         gas_start: dict[str, Any] = {"p_g": start(P_START, fixed=True)} if choice.gas == "integrated" else {}
@@ -134,10 +140,6 @@ class Powertrain(Component):
             p_A=start(P_START, fixed=not self.balanced),
             p_B=start(P_START, fixed=not self.balanced),
         )
-
-    def make_valve(self) -> Any:
-        """Return one of the valves: any with the ports, the input ``I`` and the output ``P_loss`` of `ServoValve`."""
-        return ServoValve(law=self.choice.valve_law, spool=self.choice.spool)
 
     def equations(self) -> Equations:
         tank = self.reservoir.port

@@ -27,7 +27,7 @@ from arthur_acausal import (
 )
 from arthur_acausal.models.arthur.budget import budget
 from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimensions
-from arthur_acausal.models.arthur.figures import figures
+from arthur_acausal.models.arthur.figures import figures, valve_actuation
 from arthur_acausal.models.arthur.hydraulics import Hydraulics
 from arthur_acausal.models.arthur.locomotion.actuation import Cylinders
 from arthur_acausal.models.arthur.locomotion.commands import Command, Constant
@@ -85,9 +85,9 @@ class Quadruped(Hydraulics):
     ``sensors()``, and returns what ``asked()`` lists. The forces that it asks for become those of the cylinders by
     control within the actuators, which is continuous.
 
-    Structural parameters: ``options``, see QuadrupedOptions; ``terrain`` and ``payload`` [kg], see quadruped_mjcf;
-    ``controller``, by default one that walks as ``gait`` and the speeds say; ``push`` [N], a force to the left at the
-    trunk's centre from ``t_push`` for ``push_duration``.
+    Structural parameters: ``options``, see QuadrupedOptions; ``valve``, see Hydraulics; ``terrain`` and
+    ``payload`` [kg], see quadruped_mjcf; ``controller``, by default one that walks as ``gait`` and the speeds say;
+    ``push`` [N], a force to the left at the trunk's centre from ``t_push`` for ``push_duration``.
     """
 
     start_at_demand: bool = False
@@ -177,8 +177,11 @@ class Quadruped(Hydraulics):
         )
 
     def figures(self, solution: Solution) -> dict[str, Any]:
-        """Return how it walked and what that took: see models.arthur.figures."""
-        return figures(solution, self.payload)
+        """Return how it walked and what that took, driven valves included: see models.arthur.figures."""
+        found = figures(solution, self.payload)
+        if self.valve != "ideal":
+            found["valve_actuation"] = valve_actuation(solution)
+        return found
 
     def beside(self) -> dict[str, dict[str, str]]:
         """Return what a film shows beside the robot: the supply's pressures, and the chambers of a knee."""

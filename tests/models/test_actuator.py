@@ -28,6 +28,7 @@ from arthur_acausal.components import rotational as rot
 from arthur_acausal.components.hydraulic import PressureSource, Tank
 from arthur_acausal.models.arthur.actuator import Actuator, ForceLaw
 from arthur_acausal.models.arthur.linkages import LINKAGES
+from arthur_acausal.models.arthur.valves.direct import ValveKind
 
 
 class Swinging(Component):
@@ -65,6 +66,7 @@ class Leg(Component):
     """One joint between a pressure source and a tank."""
 
     law: ForceLaw = "feed-forward"
+    valve: ValveKind = "ideal"
     supply: PressureSource = PressureSource(p=138e5)
     tank: Tank = Tank(p=3e5)
     inertia: rot.Inertia = rot.Inertia(J=0.012, phi=start(-pi / 2, fixed=True), w=start(0.0, fixed=True))
@@ -72,7 +74,7 @@ class Leg(Component):
     load: Stance = Stance()
 
     def build(self) -> None:
-        self.act = Actuator(linkage_of=LINKAGES["knee"], law=self.law)
+        self.act = Actuator(linkage_of=LINKAGES["knee"], law=self.law, valve_kind=self.valve)
 
     def equations(self) -> Equations:
         yield connect(self.supply.port, self.act.supply)
@@ -84,8 +86,8 @@ class Leg(Component):
 
 
 @cache
-def leg(law: ForceLaw = "feed-forward") -> Translation:
-    return translate(Leg(law=law))
+def leg(law: ForceLaw = "feed-forward", valve: ValveKind = "ideal") -> Translation:
+    return translate(Leg(law=law, valve=valve))
 
 
 def tracking(solution: Solution) -> float:
@@ -107,6 +109,19 @@ def test_force_follows_the_demand_within_a_tenth(J: float) -> None:
 def test_force_control_alone_does_not_follow() -> None:
     """The chambers' stiffness times the piston's velocity is a disturbance that the bare PID cannot keep up with."""
     assert tracking(leg("bare").simulate(1.0, tolerance=1e-5)) > 0.5
+
+
+@pytest.mark.parametrize("valve", ["rotary", "spool"])
+def test_force_follows_with_a_driven_valve(valve: ValveKind) -> None:
+    """Within a tenth, as the overlap costs; the drive's energy is the work on the valve's loads."""
+    run, ideal = leg(valve=valve).simulate(1.0, tolerance=1e-4), leg().simulate(1.0, tolerance=1e-4)
+    assert np.abs(run["act.cylinder.v"]).max() > 0.15
+    assert tracking(ideal) < tracking(run) < 0.1
+    assert np.interp(ideal.t, run.t, run["inertia.phi"]) == pytest.approx(ideal["inertia.phi"], abs=5e-3)
+    torque, w = -run["act.valve.drive.flange.tau"], run["act.valve.drive.w"]
+    assert run["act.valve.drive.P"] == pytest.approx(torque * w, abs=1e-12)
+    assert 1e-5 < run["act.valve.drive.P"].mean() < 1e-2
+    assert np.abs(torque).max() < 1e-2
 
 
 def test_states_of_one_actuator() -> None:

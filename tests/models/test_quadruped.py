@@ -17,6 +17,7 @@ from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
 from arthur_acausal.models.arthur.quadruped import Quadruped
 from arthur_acausal.models.arthur.quadruped_picture import LOSSES, total
 from arthur_acausal.models.arthur.trouble import counts
+from arthur_acausal.models.arthur.valves.direct import ValveKind
 
 WEIGHT = Dimensions().mass * 9.81
 QPOS = [f"base_{x}" for x in ("x", "y", "z", "q_w", "q_x", "q_y", "q_z")] + [f"{j}_phi" for j in JOINT_NAMES]
@@ -31,6 +32,11 @@ def robot() -> Translation:
 def standing() -> Solution:
     """A tenth of a second of standing."""
     return robot().simulate(0.1, options=SolverOptions(rtol=1e-5, intervals=5))
+
+
+@cache
+def trotting() -> Translation:
+    return translate(Quadruped(gait="trot", v_x=0.5, audit=True))
 
 
 def initial(name: str) -> float:
@@ -76,8 +82,7 @@ def test_energy() -> None:
 
 def test_the_rigid_bodies_balance() -> None:
     """Work of the cylinders = growth of MuJoCo's energies + what contacts take, in the first steps of a trot."""
-    model = translate(Quadruped(gait="trot", v_x=0.5, audit=True))
-    run = model.simulate(0.3, options=SolverOptions(rtol=1e-3, intervals=600))
+    run = trotting().simulate(0.3, options=SolverOptions(rtol=1e-3, intervals=600))
     energy = body_energy(run)
     assert abs(energy.closure) < 0.01
     assert energy.contact_J > 0.01 * energy.positive_J
@@ -132,3 +137,26 @@ def test_the_picture_shows_every_loss_once() -> None:
         "power",
     ]
     assert len(figure.axes[2].lines) >= 2  # roll and pitch
+
+
+@pytest.mark.parametrize("kind", ["rotary", "spool"])
+def test_a_leg_with_driven_valves_follows_as_with_ideal_ones(kind: ValveKind) -> None:
+    """What moving the valves takes is told; it is small beside the 100 W of a pilot."""
+    model = translate(Quadruped(gait="trot", v_x=0.5, audit=True, valve=kind), compile="never")
+    run, ideal = (
+        m.simulate(0.06, options=SolverOptions(rtol=1e-3, intervals=30)) for m in (model, trotting())
+    )
+    for joint in JOINT_NAMES:
+        path = f"body.{joint}_phi"
+        np.testing.assert_allclose(run[path], ideal[path], atol=5e-3)
+    assert np.ptp(ideal["body.FL_hip_phi"]) > 0.002
+    assert run.final("actuators[1].valve.drive.phi") != 0.0
+    assert run.select("actuators[*].valve.drive.P") == [f"actuators[{i}].valve.drive.P" for i in range(3)]
+    told = model.model.figures(run)["valve_actuation"]  # type: ignore[attr-defined]
+    assert told["valves"] == 3
+    assert told["force_tracking_rms"] < 0.2
+    assert 0.0 < told["mechanical_W"] < 0.1
+    # Loads of the case studies, mN m at less than half of the opening, which the windings hold.
+    assert 1e-4 < told["torque_max_Nm"] < 1e-2
+    assert 0.0 < told["copper_W"] < (told["torque_max_Nm"] / 0.01) ** 2
+    assert abs(run.energy().closure) < 1e-4
