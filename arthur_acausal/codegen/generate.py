@@ -54,7 +54,7 @@ def generate(
     calls = rule.calls()
     functions |= {call.name: call.inputs for call in calls}
     often = [*COMPILED, *(call.name for call in calls)]
-    hot = compile_functions([functions[name] for name in often], mode=compile)
+    hot = compile_functions([functions[name] for name in often], mode=compile, long_runs=bool(calls))
     functions |= dict(zip(often, hot, strict=True))
     nominal, minimum, maximum = attribute_arrays(dae, assembly.y_nodes)
     flat, n_states, start_only = dae.flat, len(dae.causal.states), dae.nodes.start_only

@@ -194,6 +194,15 @@ def test_auto_compiles_what_is_worth_it(cache: Cache) -> None:
     assert all(f.is_a("External") for f in compile_functions(system(), cache=cache))
 
 
+@needs_compiler
+def test_more_is_compiled_for_long_runs(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
+    functions = system()
+    monkeypatch.setattr(kernel, "MOST", sum(f.n_instructions() for f in functions) - 1)
+    assert compile_functions(functions, cache=cache) == functions
+    assert all(f.is_a("External") for f in compile_functions(functions, long_runs=True, cache=cache))
+    assert all(f.is_a("External") for f in compile_functions(functions, mode="often", cache=cache))
+
+
 def test_without_a_compiler(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", "")
     monkeypatch.setenv("CC", "no-such-compiler")
