@@ -12,6 +12,7 @@ import importlib.util
 import logging
 import sys
 import sysconfig
+import weakref
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -79,8 +80,10 @@ class Native:
         place = dense_places(dae).astype(np.int64) if dense else None
         # Functions of Python around them, since the binding asks for their signatures, which takes 0.3 ms for one of
         # C, and keeps events as attributes.
-        residual = self._bind(RESIDUAL, evaluator.residual, self._refuse)
-        jacobian = self._bind(JACOBIAN, evaluator.jacobian, self._bad_jacobian, place)
+        # Those of C must not hold what holds them: the collector of cycles does not see into them.
+        me = weakref.proxy(self)
+        residual = self._bind(RESIDUAL, evaluator.residual, lambda: me._refuse())
+        jacobian = self._bind(JACOBIAN, evaluator.jacobian, lambda: me._bad_jacobian(), place)
         self.residual = lambda t, y, yp, out: residual(t, y, yp, out)
         self.jacobian = lambda t, y, yp, res, cj, out: self._watched(jacobian(t, y, yp, res, cj, out))
         self.roots: Callable[..., None] | None = None

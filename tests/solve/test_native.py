@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import gc
+import weakref
 from pathlib import Path
 
 import casadi
@@ -240,3 +242,22 @@ def test_an_interrupt_within_an_external_function_keeps_what_was_computed() -> N
     with pytest.raises(Interrupted) as caught:
         translation.simulate(10.0)
     assert 0.0 < caught.value.solution["s"][-1] < 0.51
+
+
+@pytest.mark.parametrize("model", [DCMotor(), BouncingBall()])
+def test_a_run_leaves_nothing_behind(model: Component, monkeypatch: pytest.MonkeyPatch) -> None:
+    translation = translate(model, compile="always")
+    made: list[weakref.ref[native.Native]] = []
+    real = native.Native.of
+
+    def observed(*arguments: object) -> native.Native | None:
+        found = real(*arguments)  # type: ignore[arg-type]
+        assert found is not None
+        made.append(weakref.ref(found))
+        return found
+
+    monkeypatch.setattr(native.Native, "of", observed)
+    for _ in range(2):
+        translation.simulate(0.1)
+    gc.collect()
+    assert [run() for run in made] == [None, None]

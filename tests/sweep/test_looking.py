@@ -107,12 +107,16 @@ def test_a_browser_shows_it(swept: Sweep, tmp_path: Path, width: int) -> None:
         lines: document.querySelectorAll("#trajectory .js-line").length,
         which: document.getElementById("which").textContent,
         first: document.querySelector("#body td:nth-child(2)").textContent,
-        wide: document.documentElement.scrollWidth > window.innerWidth};
+        wide: Math.max(document.body.scrollWidth, ...[...document.querySelectorAll(".main-svg")].map(
+          plot => plot.getBoundingClientRect().right)) > document.documentElement.clientWidth};
       const out = document.createElement("pre"); out.id = "told"; out.textContent = JSON.stringify(told);
       document.body.append(out);
     """
     file = tmp_path / "r.html"
-    file.write_text(page(swept).replace("</body>", f"<script>{script}</script></body>"), encoding="utf-8")
+    text = page(swept).replace("</body>", f"<script>{script}</script></body>")
+    # no window of Chromium is narrower than 500 pixels
+    text = text.replace("</style>", f"html {{ width: {width - 20}px }}</style>", 1)
+    file.write_text(text, encoding="utf-8")
     command = [
         str(CHROMIUM),
         "--headless=new",
