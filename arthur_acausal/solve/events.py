@@ -17,7 +17,7 @@ from arthur_acausal.errors import SimulationError
 from arthur_acausal.solve.consistent import ConsistentSystem
 from arthur_acausal.solve.diagnosis import listed
 from arthur_acausal.solve.initial_failure import failure
-from arthur_acausal.solve.law import NEARBY, Law
+from arthur_acausal.solve.law import NEARBY, Law, same
 from arthur_acausal.solve.modes import Modes
 from arthur_acausal.solve.newton import Index, Solve
 from arthur_acausal.solve.options import SolverOptions
@@ -92,7 +92,7 @@ class EventIteration:
         self._law.keep()
         if sample is not None:
             sample()
-        pending, reset = inputs_jump or not np.array_equal(evaluator.z, evaluator.zp), False
+        pending, reset = inputs_jump or not same(evaluator.z, evaluator.zp), False
         moving: Index = np.zeros(0, dtype=np.intp)
         trusted = dict(flagged)
         for number in range(self._options.max_event_iterations):
@@ -103,13 +103,14 @@ class EventIteration:
             moving = np.flatnonzero(modes != (evaluator.m > 0.5))
             evaluator.m[:] = modes
             rising = self._rising()
+            risen = np.count_nonzero(rising) > 0
             pending |= moving.size > 0
-            quiet = number > 0 and not moving.size and not rising.any()
+            quiet = number > 0 and not moving.size and not risen
             if quiet and not pending:
                 break
-            if pending and self._has_algebraic and rising.any():
+            if pending and self._has_algebraic and risen:
                 self._follow(outcome, inputs_jump)  # what the `when` clauses read must hold in the new modes
-            g = evaluator.roots().copy() if trusted and rising.any() else None
+            g = evaluator.roots().copy() if trusted and risen else None
             acted, was_reset = self._act(rising, outcome)
             if acted and g is not None:  # a threshold that was moved says what holds, however near it is
                 now = evaluator.roots()
@@ -117,7 +118,7 @@ class EventIteration:
             reset |= was_reset
             if acted or pending:
                 self._follow(outcome, was_reset or inputs_jump)
-            pending = not np.array_equal(evaluator.z, evaluator.zp)
+            pending = not same(evaluator.z, evaluator.zp)
             evaluator.zp[:] = evaluator.z
             if quiet and not pending:  # the next pass would see what this one has seen
                 break
@@ -132,10 +133,8 @@ class EventIteration:
         Where a sample only bends the course of F, as a first-order hold does, the values are consistent as they are:
         the integration goes on, and its error test sees the bend.
         """
-        evaluator = self._evaluator
-        if changed or self._law.changed(
-            bends=self._sampled and np.array_equal(evaluator.m > 0.5, self._modes_before)
-        ):
+        bends = self._sampled and same(self._evaluator.m > 0.5, self._modes_before)
+        if changed or self._law.changed(bends):
             self._solve(outcome)
             outcome.affected = True
         self._law.keep()
@@ -214,9 +213,9 @@ class EventIteration:
         now = self._evaluator.conditions() > 0.5
         rising = now & ~self._modes.conditions
         self._modes.conditions = now
-        for k, when in enumerate(self._dae.whens):
-            if when.earlier and rising[k]:
-                rising[k] = not rising[k - when.earlier : k].any()
+        for k in rising.nonzero()[0].tolist():
+            earlier = self._dae.whens[k].earlier
+            rising[k] = not (earlier and rising[k - earlier : k].any())
         return rising
 
     def _act(self, rising: BoolArray, outcome: Outcome) -> tuple[bool, bool]:
@@ -268,6 +267,8 @@ class EventIteration:
     def _relation_events(self, before: BoolArray, flagged: Mapping[int, bool], outcome: Outcome) -> None:
         """One entry for each relation that was known to change or has changed."""
         after = self._evaluator.m > 0.5
+        if not flagged and same(before, after):
+            return
         t = float(self._evaluator.t[0])
         changes = {int(k): bool(after[k]) for k in np.flatnonzero(before != after)} | dict(flagged)
         entries = []

@@ -162,7 +162,7 @@ class HybridRun:
         """Integrate over one stretch and handle what ends it."""
         evaluator, t, near = self._evaluator, self._t, self._resolution
         end = min(self._until, self._inputs.next_jump(t + near), self._schedule.next(), self._samples.next())
-        first, last = np.searchsorted(self._grid, [t + near, end - near])
+        first, last = self._grid.searchsorted((t + near, end - near))
         times = np.concatenate([[t], self._grid[first:last], [end]])
         self._roots.restart(t + near)
         before = perf_counter()

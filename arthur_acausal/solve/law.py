@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray
 
@@ -38,21 +41,21 @@ class Law:
         (which is found anew only where what it was before does not do).
         """
         evaluator = self._evaluator
-        if np.array_equal(evaluator.z, self._z) and np.array_equal(evaluator.m, self._m):
+        if same(evaluator.z, self._z) and same(evaluator.m, self._m):
             return False
         kept, now = self._both()
         move = np.abs(now - kept)
-        if bends and np.all(move <= self._allowed):
+        if bends and (move <= self._allowed).all():
             return False
-        same = np.array_equal(kept, now, equal_nan=True)
-        if not (bends or same):
+        alike = np.array_equal(kept, now, equal_nan=True)
+        if not (bends or alike):
             return True
         kept_near, now_near = self._near()
         if bends:
             self._allowed = self._part * np.abs(kept_near - kept)
-            if np.all(move <= self._allowed):
+            if (move <= self._allowed).all():
                 return False
-        return not (same and np.array_equal(kept_near, now_near, equal_nan=True))
+        return not (alike and np.array_equal(kept_near, now_near, equal_nan=True))
 
     def _both(self) -> tuple[FloatArray, FloatArray]:
         """F by the law kept and by the present one: external functions whose inputs are the same are called once."""
@@ -74,3 +77,8 @@ class Law:
         near = self._both()
         evaluator.t[0], evaluator.y[:], evaluator.yp[:] = t, y, yp
         return near
+
+
+def same(a: NDArray[Any], b: NDArray[Any]) -> bool:
+    """Whether two arrays of one type and shape have the same values; quick where they have the same bits."""
+    return a.tobytes() == b.tobytes() or bool((a == b).all())

@@ -26,32 +26,38 @@ class Samples:
                 )
         # a fresh function for each run, where it has a state of its own
         self._functions = [getattr(b.function, "fresh", lambda f=b.function: f)() for b in self._blocks]
-        self._triggers = [block.trigger for block in self._blocks]
-        self._seen: FloatArray | None = None  # values of the triggers when they were last asked for
+        self._triggers = {k: block.trigger for k, block in enumerate(self._blocks) if block.trigger >= 0}
+        self._seen: dict[int, float] = {}  # values of the triggers when they were last asked for
         late = 1e-9 * self._period
         self._k = np.maximum(np.ceil((start_time - self._offset - late) / self._period), 0.0)
+        self._due: FloatArray = self._offset + self._k * self._period
+        self._next = float(self._due.min(initial=math.inf))
 
     def next(self) -> float:
         """Return the next time at which a block is due [s]; infinity if there is none."""
-        return float(np.min(self._offset + self._k * self._period)) if len(self._blocks) else math.inf
+        return self._next
 
     def act(self, now: float) -> None:
         """Call what is due up to ``now`` [s] or triggered, in order; the evaluator holds the values before it."""
-        if self._seen is None:
-            self._seen = self._trigger_values()
-        due = self._offset + self._k * self._period <= now
-        for number, block in enumerate(self._blocks):
-            triggered = block.trigger >= 0 and self._trigger_values()[number] != self._seen[number]
-            if due[number] or triggered:
-                self._seen[number] = self._trigger_values()[number]
+        due = self._due <= now
+        if not self._seen:
+            self._seen = {number: self._trigger(number) for number in self._triggers}
+        for number in range(len(self._blocks)):
+            if self._triggered(number) or due[number]:
                 self._call(number)
         self._k[due] += 1.0
+        self._due = self._offset + self._k * self._period
+        self._next = float(self._due.min())
 
-    def _trigger_values(self) -> FloatArray:
-        """Return the trigger of each block; anything for a block without one."""
-        if max(self._triggers, default=-1) < 0:
-            return np.zeros(len(self._triggers))
-        return self._evaluator.sample_inputs()[self._triggers]
+    def _trigger(self, number: int) -> float:
+        return float(self._evaluator.sample_inputs()[self._triggers[number]])
+
+    def _triggered(self, number: int) -> bool:
+        """Whether a block's trigger has changed since it was last asked for."""
+        if number not in self._triggers:
+            return False
+        before, self._seen[number] = self._seen[number], self._trigger(number)
+        return self._seen[number] != before
 
     def _call(self, number: int) -> None:
         block, evaluator = self._blocks[number], self._evaluator

@@ -62,6 +62,8 @@ class Schedule:
 
     def due(self, until: float) -> dict[int, bool]:
         """Relations that change up to `until`, and what they become."""
+        if not self.index.size:
+            return {}
         found = np.flatnonzero(self._times <= until)
         return {int(self.index[k]): bool(self._rising[k]) for k in found}
 

@@ -16,6 +16,7 @@ from arthur_acausal.solve.protocol import DAE, Attributes, Evaluator, FloatArray
 
 WIDEST = 1e-2  # of an unknown's magnitude: one that is lost in the states' errors is near a singular point
 ROOM = 4.0  # a tolerance stays as it is while it is within this factor of what it should be
+RAREST = 8  # while nothing is to be widened, every second, fourth, and at last eighth call looks
 
 
 class Tolerances:
@@ -31,6 +32,7 @@ class Tolerances:
         self._own = ~dae.differential & ~options.given_tolerances(paths)
         self._system = ConsistentSystem(dae, evaluator, attributes, algebraic, algebraic[:0])
         self.atol = self._least
+        self._calls, self._every = 0, 1
 
     @property
     def adaptive(self) -> bool:
@@ -43,15 +45,24 @@ class Tolerances:
         if np.all((self.atol <= ROOM * wanted) & (wanted <= ROOM * self.atol)):
             return False
         self.atol = wanted
+        self._every = 1
         return True
 
     def widen(self) -> bool:
-        """Widen the tolerances that are far too narrow for the evaluator's values; whether there are any."""
+        """Widen the tolerances that are far too narrow for the evaluator's values; whether any was found so.
+
+        Each look costs a factorisation: where the looks before found none, not every call is one.
+        """
+        self._calls += 1
+        if self._calls % self._every:
+            return False
         wanted = self._wanted()
         size = self._rtol * np.abs(self._evaluator.y)
         narrow = wanted > ROOM * (self.atol + size)
         self.atol = np.where(narrow, wanted, self.atol)
-        return bool(narrow.any())
+        found = bool(narrow.any())
+        self._every = 1 if found else min(2 * self._every, RAREST)
+        return found
 
     def _wanted(self) -> FloatArray:
         size = np.abs(self._evaluator.y)
