@@ -8,7 +8,11 @@ from itertools import pairwise
 from arthur_acausal.errors import SimulationError
 from arthur_acausal.solve.options import SolverOptions
 
-SHRINKING = 5  # so many intervals in a row, each shorter than the one before, are a series that accumulates
+SHRINKING = 5  # so many intervals in a row, each shorter than the one before, are a series that accumulates,
+# unless the last shrinks much more than any before it, and does not from the size at which events become one instant:
+# then two events happen to be near.
+ABRUPT = 0.1
+MERGING = 1e4  # shortest intervals
 
 
 class Accumulation:
@@ -26,7 +30,7 @@ class Accumulation:
         times.append(t)
         recent = list(times)[-(SHRINKING + 2) :]
         intervals = [b - a for a, b in pairwise(recent)]
-        if len(intervals) > SHRINKING and intervals[-1] < self._shortest and _shrinks(intervals):
+        if len(intervals) > SHRINKING and intervals[-1] < self._shortest and self._shrinks(intervals):
             raise SimulationError(
                 f"the events accumulate at t = {t:.9g} s (Zeno): the last intervals are {intervals[-2]:.2g} s and "
                 f"{intervals[-1]:.2g} s long; the last event was {label}",
@@ -41,6 +45,8 @@ class Accumulation:
                 remedy="add a state for sliding or sticking, a hysteresis, or use a smooth law",
             )
 
-
-def _shrinks(intervals: list[float]) -> bool:
-    return all(later < earlier for earlier, later in pairwise(intervals))
+    def _shrinks(self, intervals: list[float]) -> bool:
+        if any(later >= earlier for earlier, later in pairwise(intervals)):
+            return False
+        shares = [later / earlier for earlier, later in pairwise(intervals)]
+        return shares[-1] > ABRUPT * min(shares[:-1]) or intervals[-2] < MERGING * self._shortest
