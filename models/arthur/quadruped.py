@@ -48,10 +48,12 @@ SINKAGE = 2e-3
 class SetPoint(Component):
     """A force that the controller asks for, held to first order.
 
-    The signal ``y`` [N] goes from the discrete ``before`` to ``value`` within the ``period`` [s] after ``since`` [s].
+    The signal ``y`` [N] goes from the discrete ``before`` to ``value`` within the ``period`` [s] after ``since`` [s],
+    with the derivative ``rate`` [N/s], which holds until the next sample.
     """
 
     y: Real = real_output("N", nominal=100.0)
+    rate: Real = real_output("N/s", nominal=1e4)
     period: Real = parameter("s", min=0.0)
     before: Real = discrete("N", description="asked at the sample before")
     value: Real = discrete("N", description="asked at the last sample")
@@ -60,6 +62,7 @@ class SetPoint(Component):
     def equations(self) -> Equations:
         share = fmin((time() - self.since) / self.period, 1)
         yield self.y == self.before + (self.value - self.before) * share
+        yield self.rate == (self.value - self.before) / self.period
 
 
 class Push(Component):
@@ -104,9 +107,6 @@ class Quadruped(Hydraulics):
     period: Real = parameter("s", default=0.002, min=0.0, description="of the locomotion controller")
     t_push: Real = parameter("s", default=3.0, description="beginning of the push")
     push_duration: Real = parameter("s", default=0.1, min=0.0)
-    I_max: Real = parameter(
-        "A", default=50.0, min=0.0, description="current that the motor's drive shall give"
-    )
     p_low: Real = parameter("Pa", default=1e4, display="bar", description="below it a chamber cavitates")
     z_low: Real = parameter("m", default=0.12, description="height of the trunk below which it has fallen")
     tilt: Real = parameter("rad", default=1.0, display="deg", description="angle beyond which it has fallen")
@@ -119,7 +119,9 @@ class Quadruped(Hydraulics):
         "1", start=0.0, description="times that a valve's current reached its limit"
     )
     voltage_limited: Real = discrete("1", start=0.0, description="times that the bus voltage was the limit")
-    over_current: Real = discrete("1", start=0.0, description="times that the motor's current exceeded I_max")
+    current_limited: Real = discrete(
+        "1", start=0.0, description="times that the drive limited the motor's current"
+    )
 
     def build(self) -> None:
         super().build()
@@ -153,6 +155,7 @@ class Quadruped(Hydraulics):
         for name, actuator, set_point in zip(JOINT_NAMES, self.actuators, self.set_points, strict=True):
             yield connect(actuator.joint, getattr(self.body, name))
             yield connect(set_point.y, actuator.F_d)
+            yield connect(set_point.rate, actuator.F_d_rate)
         if self.push:
             yield connect(self.shove.y, self.body.imu_f_y)
         yield sampled(self.control, period=self.period, inputs=self.sensors(), outputs=self.asked())
@@ -160,7 +163,7 @@ class Quadruped(Hydraulics):
 
     def _watch(self) -> Equations:
         """Count what goes wrong; where it falls the run ends."""
-        cylinders, unit = [a.cylinder for a in self.actuators], self.unit
+        cylinders, unit, motor = [a.cylinder for a in self.actuators], self.unit, self.unit.motor
         lowest = largest(-p for c in cylinders for p in (c.p_A, c.p_B))
         beyond = largest(x for c in cylinders for x in (c.y - c.y_max, c.y_min - c.y))
         asked = largest(fabs(a.control.I) - a.control.I_rated for a in self.actuators)
@@ -169,7 +172,10 @@ class Quadruped(Hydraulics):
         yield when(asked > 0, self.valve_saturated == pre(self.valve_saturated) + 1)
         limited = unit.control.V > unit.drive.V_bus
         yield when(limited, self.voltage_limited == pre(self.voltage_limited) + 1)
-        yield when(unit.motor.I > self.I_max, self.over_current == pre(self.over_current) + 1)
+        yield when(
+            unit.drive.V > motor.R_LL * motor.I_max + motor.K_e * motor.w,
+            self.current_limited == pre(self.current_limited) + 1,
+        )
         x, y = self.body.base_q_x, self.body.base_q_y
         tipped = 2 * (x**2 + y**2) > 1 - cos(self.tilt)  # 1 - the cosine of the angle to the vertical
         yield when(

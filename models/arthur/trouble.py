@@ -15,7 +15,7 @@ COUNTERS = {
     "cavitating": "a chamber's pressure fell below p_low",
     "valve_saturated": "a valve's current reached its limit",
     "voltage_limited": "the bus voltage limited the motor",
-    "over_current": "the motor's current exceeded I_max",
+    "current_limited": "the drive limited the motor's current",
 }
 """The quadruped's discrete variables that count, and what they count."""
 
