@@ -44,7 +44,6 @@ class Actuator(Component):
     joint = rotational.Flange()
     fluid: Fluid = Fluid()
     F_d: Real = real_input("N", default=0.0, nominal=100.0, description="force asked for, positive extends")
-    F_d_rate: Real = real_input("N/s", default=0.0, nominal=1e4, description="derivative of F_d")
     q_supply: Real = real_output(
         "m^3/s", nominal=1e-5, display="L/min", description="flow asked of the supply"
     )
@@ -111,7 +110,6 @@ class Actuator(Component):
         ):
             yield connect(sensor, signal)
         yield connect(self.F_d, control.F_d)
-        yield connect(self.F_d_rate, control.F_d_rate)
         yield connect(control.I, valve.I)
         yield connect(control.q_supply, self.q_supply)
         yield connect(valve.P_loss, self.P_valve)

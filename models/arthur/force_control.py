@@ -21,14 +21,13 @@ from arthur_acausal.components.hydraulic import Fluid
 class ForceController(Component):
     """What the controllers of a cylinder's force share: what they measure, and the current ``I`` that they give.
 
-    Inputs: ``F_d`` [N] the force asked for and ``F_d_rate`` [N/s] its derivative, ``F`` [N] the force of the rod (a load cell), ``v`` [m/s] the piston's
+    Inputs: ``F_d`` [N] the force asked for, ``F`` [N] the force of the rod (a load cell), ``v`` [m/s] the piston's
     velocity, positive extends, and the pressures ``p_s``, ``p_t``, ``p_A``, ``p_B`` [Pa] of supply, return and
     chambers. ``e`` [N] is the error, ``I`` [A] positive extends; what is beyond the valve's ``I_rated`` is ``excess``.
     ``q_supply`` [m^3/s] is the flow that the piston takes from the supply: A_A v or -A_B v.
     """
 
     F_d: Real = real_input("N", default=0.0, nominal=100.0, description="force asked for")
-    F_d_rate: Real = real_input("N/s", default=0.0, nominal=1e4, description="derivative of F_d")
     F: Real = real_input("N", nominal=100.0, description="force of the rod")
     v: Real = real_input("m/s", nominal=0.1, description="velocity of the piston")
     p_s: Real = real_input("Pa", nominal=1e7, description="supply pressure")
@@ -56,9 +55,9 @@ class ForceController(Component):
 
 
 class FeedForwardControl(ForceController):
-    """PI control of the force with feed-forward of velocity and demand through the inverse laws of valve and spool.
+    """PI control of the force with feed-forward of the piston's velocity through the inverse valve law, ahead by the spool's lag.
 
-    The velocity that the flows shall give, u = k_v v + F_d'/k + k_p (e + x), x' = e/T_i, becomes a current by the
+    The velocity that the flows shall give, u = k_v v + k_p (e + x), x' = e/T_i, becomes a current by the
     inverse of eq. 5.36 and 5.37 of the ARTHuR report: with u = v the current keeps the force, F' = 0, in a cylinder
     whose chambers have the same ratio of volume and area,
 
@@ -80,7 +79,6 @@ class FeedForwardControl(ForceController):
     K_V: Real = parameter("m^2/A", min=0.0, description="valve gain of eq. 5.35")
     k_v: Real = parameter("1", default=0.95, min=0.0, description="share of the velocity that is fed forward")
     k_p: Real = parameter("m/(s*N)", default=1.8e-4, min=0.0, description="proportional gain")
-    k: Real = parameter("N/m", default=6e6, min=0.0, description="stiffness of the chambers")
     T_lead: Real = parameter("s", default=8.9e-4, min=0.0, description="lag of the spool that is made good")
     T_lag: Real = parameter("s", default=2e-4, min=0.0, description="lag that is left")
     T_i: Real = parameter("s", default=0.006, min=0.0, description="integral time")
@@ -95,7 +93,7 @@ class FeedForwardControl(ForceController):
         yield from super().equations()
         yield self.u == self.k_v * self.v + self.k_p * (self.e + self.x)
         yield "lag", self.T_lag * der(self.u_lag) == self.u - self.u_lag
-        yield "lead", self.u_lead == self.u_lag + self.T_lead * der(self.u_lag)
+        yield "lead", self.u_lead == self.u_lag + self.T_lead / self.T_lag * (self.u - self.u_lag)
         yield "integral", self.T_i * der(self.x) == self.e - self.k_aw * self.excess
         extend = self.root(self.p_s - self.p_A) + self.root(self.p_B - self.p_t)
         retract = self.root(self.p_A - self.p_t) + self.root(self.p_s - self.p_B)

@@ -48,12 +48,10 @@ SINKAGE = 2e-3
 class SetPoint(Component):
     """A force that the controller asks for, held to first order.
 
-    The signal ``y`` [N] goes from the discrete ``before`` to ``value`` within the ``period`` [s] after ``since`` [s],
-    with the derivative ``rate`` [N/s], which holds until the next sample.
+    The signal ``y`` [N] goes from the discrete ``before`` to ``value`` within the ``period`` [s] after ``since`` [s].
     """
 
     y: Real = real_output("N", nominal=100.0)
-    rate: Real = real_output("N/s", nominal=1e4)
     period: Real = parameter("s", min=0.0)
     before: Real = discrete("N", description="asked at the sample before")
     value: Real = discrete("N", description="asked at the last sample")
@@ -62,7 +60,6 @@ class SetPoint(Component):
     def equations(self) -> Equations:
         share = fmin((time() - self.since) / self.period, 1)
         yield self.y == self.before + (self.value - self.before) * share
-        yield self.rate == (self.value - self.before) / self.period
 
 
 class Push(Component):
@@ -155,7 +152,6 @@ class Quadruped(Hydraulics):
         for name, actuator, set_point in zip(JOINT_NAMES, self.actuators, self.set_points, strict=True):
             yield connect(actuator.joint, getattr(self.body, name))
             yield connect(set_point.y, actuator.F_d)
-            yield connect(set_point.rate, actuator.F_d_rate)
         if self.push:
             yield connect(self.shove.y, self.body.imu_f_y)
         yield sampled(self.control, period=self.period, inputs=self.sensors(), outputs=self.asked())
