@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from math import pi
+from typing import Any, Literal
 
 from arthur_acausal import Component, Equations, Real, connect, parameter, real_input, real_output
 from arthur_acausal.components import rotational
@@ -11,7 +12,7 @@ from arthur_acausal.components.hydraulic import Cylinder, Fluid, HydraulicPort, 
 from arthur_acausal.components.hydraulic.servo_valve import Spool
 from arthur_acausal.components.robotics import CylinderLinkage
 from arthur_acausal.components.translational import ForceSensor, SpeedSensor
-from arthur_acausal.models.arthur.force_control import BareControl, FeedForwardControl
+from arthur_acausal.models.arthur.force_control import LAG, BareControl, FeedForwardControl
 from arthur_acausal.models.arthur.linkages import JointLinkage
 from arthur_acausal.models.arthur.valves.direct import ValveKind, servo_valve
 
@@ -81,10 +82,18 @@ class Actuator(Component):
                 A_A=self.cylinder.A_A,
                 A_B=self.cylinder.A_B,
                 I_rated=self.valve.I_rated,
+                **self._lead(),
             )
         self.p_s, self.p_t = PressureSensor(), PressureSensor()
         self.p_A, self.p_B = PressureSensor(), PressureSensor()
         self.speed, self.load_cell = SpeedSensor(), ForceSensor()
+
+    def _lead(self) -> dict[str, Any]:
+        """Return the lead that makes good the spool's lag; the controller's own is that of a driven valve."""
+        if not isinstance(self.valve, ServoValve):
+            return {}
+        lag = self.valve.zeta_spool / (pi * self.valve.f_spool)  # 2 zeta/omega
+        return {"T_lead": lag if self.spool == "second order" else LAG}
 
     def equations(self) -> Equations:
         valve, cylinder, control = self.valve, self.cylinder, self.control

@@ -88,9 +88,9 @@ def attitude(solution: Solution) -> FloatArray:
 def slip_share(solution: Solution, settled: NDArray[np.bool_]) -> float:
     """Return the share of stance in which the contact point slips."""
     normal = solution.values([f"body.sensor_{leg}_touch" for leg in LEGS])[settled]
-    speed = contact_speeds(solution)[settled]
-    loaded = normal > LOADED
-    return float((speed[loaded] > SLIPPING).mean()) if loaded.any() else 0.0
+    loaded = spans(solution.t[settled]) * (normal > LOADED)
+    slipping = contact_speeds(solution)[settled] > SLIPPING
+    return float((loaded * slipping).sum() / loaded.sum()) if loaded.any() else 0.0
 
 
 def contact_speeds(solution: Solution) -> FloatArray:
@@ -135,5 +135,12 @@ def tracking(solution: Solution, settled: NDArray[np.bool_]) -> float | None:
     error, demand = (
         solution.values(solution.select(f"actuators[*].{name}"))[settled] for name in ("control.e", "F_d")
     )
-    asked = np.mean(demand**2)
-    return float(np.sqrt(np.mean(error**2) / asked)) if asked else None
+    span = spans(solution.t[settled])
+    asked = np.sum(span * demand**2)
+    return float(np.sqrt(np.sum(span * error**2) / asked)) if asked else None
+
+
+def spans(t: FloatArray) -> FloatArray:
+    """Return the time that each row stands for (nt, 1) [s]: rows are dense where events are."""
+    between = np.diff(t) / 2
+    return (np.append(between, 0.0) + np.insert(between, 0, 0.0))[:, None]

@@ -17,6 +17,9 @@ from arthur_acausal import (
 )
 from arthur_acausal.components.hydraulic import Fluid
 
+LAG = 2e-4
+"""Lag that a lead leaves [s]; a lead of the same length is none."""
+
 
 class ForceController(Component):
     """What the controllers of a cylinder's force share: what they measure, and the current ``I`` that they give.
@@ -55,7 +58,7 @@ class ForceController(Component):
 
 
 class FeedForwardControl(ForceController):
-    """PI control of the force with feed-forward of the piston's velocity through the inverse valve law, ahead by the spool's lag.
+    """PI control of the force with feed-forward of the piston's velocity through the inverse laws of valve and spool.
 
     The velocity that the flows shall give, u = k_v v + k_p (e + x), x' = e/T_i, becomes a current by the
     inverse of eq. 5.36 and 5.37 of the ARTHuR report: with u = v the current keeps the force, F' = 0, in a cylinder
@@ -80,7 +83,7 @@ class FeedForwardControl(ForceController):
     k_v: Real = parameter("1", default=0.95, min=0.0, description="share of the velocity that is fed forward")
     k_p: Real = parameter("m/(s*N)", default=1.8e-4, min=0.0, description="proportional gain")
     T_lead: Real = parameter("s", default=8.9e-4, min=0.0, description="lag of the spool that is made good")
-    T_lag: Real = parameter("s", default=2e-4, min=0.0, description="lag that is left")
+    T_lag: Real = parameter("s", default=LAG, min=0.0, description="lag that is left")
     T_i: Real = parameter("s", default=0.006, min=0.0, description="integral time")
     k_aw: Real = parameter("N/A", default=1e3, min=0.0, description="anti-windup")
     dp_min: Real = parameter("Pa", default=5e5, min=0.0, description="least pressure drop of the inverse law")

@@ -125,9 +125,9 @@ def test_force_follows_with_a_driven_valve(valve: ValveKind) -> None:
 
 
 def test_states_of_one_actuator() -> None:
-    """Pressures, spool and integral: the piston's motion is the joint's."""
+    """Pressures, spool, integral and lead: the piston's motion is the joint's."""
     states = {path for path in leg().report.states if path.startswith("act.")}
-    expected = {"valve.x", "valve.v", "cylinder.p_A", "cylinder.p_B", "control.x"}
+    expected = {"valve.x", "valve.v", "cylinder.p_A", "cylinder.p_B", "control.x", "control.u_lag"}
     assert states == {f"act.{name}" for name in expected}
     assert leg().report.torn == []
 

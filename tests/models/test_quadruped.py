@@ -92,9 +92,9 @@ def test_the_rigid_bodies_balance() -> None:
 
 
 def test_unknowns() -> None:
-    """Five an actuator, seven of the unit, 37 of the body; two are implicit."""
+    """Six an actuator, seven of the unit, 37 of the body; two are implicit."""
     report = translate(Quadruped(), compile="never").report
-    assert len(report.states) == 12 * 5 + 7 + 37
+    assert len(report.states) == 12 * 6 + 7 + 37
     assert report.torn == ["unit.motor.I", "unit.filter.p_s"]
 
 
