@@ -27,6 +27,7 @@ from arthur_acausal import (
 from arthur_acausal.components import rotational as rot
 from arthur_acausal.components.hydraulic import PressureSource, Tank
 from arthur_acausal.models.arthur.actuator import Actuator, ForceLaw
+from arthur_acausal.models.arthur.force_control import LAG
 from arthur_acausal.models.arthur.linkages import LINKAGES
 from arthur_acausal.models.arthur.valves.direct import ValveKind
 
@@ -140,7 +141,7 @@ def test_work_of_the_cylinder_is_work_of_the_joint() -> None:
 
 
 def test_the_inverse_valve_law_keeps_the_force() -> None:
-    """With u = v the chambers, of equal ratios of volume and area, feel no change of force: by the flows themselves.
+    """With u_lead = v the chambers, of equal ratios of volume and area, feel no change of force: by the flows.
 
     Each chamber stiffens with A^2/V, so F' is in proportion to (Q_A/A_A - v) A_A + (Q_B/A_B - v) A_B.
     """
@@ -149,10 +150,23 @@ def test_the_inverse_valve_law_keeps_the_force() -> None:
     rho, K_V = run.final("act.fluid.rho"), run.final(valve + "K_V")
     A_A, A_B = run.final(cylinder + "A_A"), run.final(cylinder + "A_B")
     p = {name: run[control + f"p_{name}"] for name in "stAB"}
-    u, I = run[control + "u"], run[control + "I"]
+    u, I = run[control + "u_lead"], run[control + "I"]
     extends = u > 0
     root_A = np.sqrt(np.where(extends, p["s"] - p["A"], p["A"] - p["t"]))
     root_B = np.sqrt(np.where(extends, p["B"] - p["t"], p["s"] - p["B"]))
     flow = K_V * I * np.sqrt(2 / rho)
     change = (flow * root_A / A_A - u) * A_A + (flow * root_B / A_B - u) * A_B
     assert np.abs(change).max() < 0.01 * (A_A + A_B) * np.abs(u).max()
+
+
+def test_the_lead_makes_the_force_loop_faster_and_better_damped() -> None:
+    """The loop's oscillation, by the eigenvalues of the linearised joint: from 210 Hz to above 300 Hz."""
+
+    def oscillation(**parameters: float) -> complex:
+        run = leg().simulate(0.15, tolerance=1e-5, parameters=parameters)
+        values = np.linalg.eigvals(leg().linearize(run).A)
+        return complex(max(values[values.imag > 0], key=abs))
+
+    plain, ahead = oscillation(**{"act.control.T_lead": LAG}), oscillation()
+    assert abs(ahead) > 1.3 * abs(plain)
+    assert -ahead.real / abs(ahead) > 0.25 > 0.2 > -plain.real / abs(plain)
