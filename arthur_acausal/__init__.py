@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from arthur_acausal.api import simulate as simulate
     from arthur_acausal.api import translate as translate
     from arthur_acausal.codegen.build import compile_c as compile_c
+    from arthur_acausal.codegen.kernel import compile_functions as compile_functions
     from arthur_acausal.declare.external import ExternalFunction as ExternalFunction
     from arthur_acausal.declare.external import external as external
     from arthur_acausal.declare.model import Component as Component
@@ -58,6 +59,7 @@ __version__ = "0.1.0"
 _HOME = {
     "api": ("Translation", "simulate", "translate"),
     "codegen.build": ("compile_c",),
+    "codegen.kernel": ("compile_functions",),
     "declare.external": ("ExternalFunction", "external"),
     "declare.model": ("Component", "Connector", "Equations", "Record"),
     "declare.quantity": (

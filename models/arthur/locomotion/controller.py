@@ -8,6 +8,7 @@ from math import cos, expm1, hypot, sin
 import numpy as np
 from numpy.typing import NDArray
 
+from arthur_acausal import compile_functions
 from arthur_acausal.models.arthur.dimensions import Dimensions
 from arthur_acausal.models.arthur.locomotion.actuation import Cylinders
 from arthur_acausal.models.arthur.locomotion.base_trajectory import BaseReference
@@ -83,7 +84,7 @@ class Controller:
         self._leg_torques = Kernel(leg_torques(c.robot, c.cylinders, c.settings))
         self._foot_plan = Kernel(foot_plan(n, h))
         self._postures = Kernel(inverse_kinematics(c.robot, n + 1))
-        self._kinematics = Kernel(kinematics(c.robot).map(n + 1))
+        self._kinematics = Kernel(compile_functions([kinematics(c.robot)])[0].map(n + 1))
         self._times: FloatArray = h * np.arange(n + 1.0)
         self._every = max(1, round(c.settings.mpc_period / c.settings.period))
         self._tick = 0

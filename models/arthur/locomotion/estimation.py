@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from arthur_acausal import compile_functions
 from arthur_acausal.models.arthur.dimensions import Dimensions
 from arthur_acausal.models.arthur.locomotion.kernel import Kernel
 from arthur_acausal.models.arthur.locomotion.leg_model import kinematics
@@ -68,7 +69,7 @@ def odometry(robot: Dimensions) -> ca.Function:
         points.append(R @ point[mine])
         said.append(-R @ (ca.cross(w, point[mine]) + J @ dq[mine]))
     outputs = [foot, foot_velocity, ca.vertcat(*points), ca.vertcat(*said), R @ centre]
-    return ca.Function("odometry", [q, dq, ca.vec(R), w], outputs, {"cse": True})
+    return compile_functions([ca.Function("odometry", [q, dq, ca.vec(R), w], outputs, {"cse": True})])[0]
 
 
 class Estimator:

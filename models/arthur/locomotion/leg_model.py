@@ -10,6 +10,7 @@ from functools import cache
 
 import casadi as ca
 
+from arthur_acausal import compile_functions
 from arthur_acausal.models.arthur.dimensions import LEGS, Dimensions, Link, front_of, side_of
 
 
@@ -130,7 +131,7 @@ def inverse_kinematics(robot: Dimensions, points: int) -> ca.Function:
         angles.append(q)
         rates.append(_inverse(J) @ velocity[mine])
     one = ca.Function("posture", [foot, velocity], [ca.vertcat(*angles), ca.vertcat(*rates)], _OPTIONS)
-    return one.map(points)
+    return compile_functions([one])[0].map(points)
 
 
 STRETCHED = 0.98

@@ -6,6 +6,7 @@ from functools import cache
 
 import casadi as ca
 
+from arthur_acausal import compile_functions
 from arthur_acausal.models.arthur.dimensions import Dimensions
 from arthur_acausal.models.arthur.linkages import all_triangles
 from arthur_acausal.models.arthur.locomotion.actuation import Cylinders, limited
@@ -41,7 +42,7 @@ def leg_torques(robot: Dimensions, cylinders: Cylinders, settings: Settings) -> 
     arms = all_triangles().arm(q)
     inputs = [stance, ca.vec(R), q, dq, force, *swing]
     outputs = [ca.densify(limited(ca.vertcat(*torques), arms, cylinders))]
-    return ca.Function("leg_torques", inputs, outputs, {"cse": True})
+    return compile_functions([ca.Function("leg_torques", inputs, outputs, {"cse": True})])[0]
 
 
 _SWING = {"S": 4, "T": 4, "start": 12, "v_0": 12, "end": 12, "v_1": 12, "height": 4}

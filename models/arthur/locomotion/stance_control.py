@@ -76,6 +76,8 @@ class StanceControl:
         w = settings.weights
         self._pose_weight = np.array([[*w.angles, *w.position]]).T
         self._twist_weight = np.array([[*w.rate, *w.velocity]]).T
+        self._pose_pairs, self._twist_pairs = (x.T @ x for x in (self._reach, self._pushes))
+        self._cones: dict[int, tuple[FloatArray, FloatArray, FloatArray]] = {}  # by the number of forces
         self._patterns: dict[bytes, _Pattern] = {}
 
     def problem(
@@ -145,6 +147,9 @@ class StanceControl:
             if len(self._patterns) >= PATTERNS:
                 self._patterns.clear()
             steps, feet = np.nonzero(stance)
+            count = len(steps)
+            if count not in self._cones:
+                self._cones[count] = self._cone(count)
             index = np.repeat(steps, 3)
             pairs = np.ix_(index, index)
             share = self._mass * self._settings.gravity / np.maximum(stance.sum(axis=1), 1)
@@ -152,9 +157,9 @@ class StanceControl:
                 steps,
                 feet,
                 index,
-                (self._reach.T @ self._reach)[pairs],
-                (self._pushes.T @ self._pushes)[pairs],
-                *self._cone(len(steps)),
+                self._pose_pairs[pairs],
+                self._twist_pairs[pairs],
+                *self._cones[count],
                 share[steps],
             )
         return self._patterns[key]

@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from arthur_acausal import compile_functions
 from arthur_acausal.models.arthur.locomotion.swing_trajectory import swing_position
 
 FloatArray = NDArray[np.float64]
@@ -80,7 +81,7 @@ def foot_plan(steps: int, h: float) -> ca.Function:
     middle = [at((k + 0.5) * h, *inputs)[2] for k in range(steps)]
     outputs = [ca.horzcat(*(g[0] for g in grid)), ca.horzcat(*(g[1] for g in grid)), ca.horzcat(*middle)]
     one = ca.Function("plan", inputs, [ca.densify(each) for each in outputs], {"cse": True})
-    return one.map(4)
+    return compile_functions([one])[0].map(4)
 
 
 def stance_vectors(
