@@ -208,7 +208,7 @@ class HybridRun:
         second = self._iteration.rates(self._inputs.refresh, duration)
         if self._options.first_step is not None or second is None:
             return self._options.first_step
-        weighted = second / (self._options.rtol * np.abs(self._evaluator.y) + self._tolerances.atol)
+        weighted = second / (self._options.step_rtol * np.abs(self._evaluator.y) + self._tolerances.atol)
         size = float(np.sqrt(np.mean(weighted**2))) if second.size else 0.0
         longest = FIRST_STEP_PART * (self._monitor.h if self._monitor.halted else duration)  # halted: goes on
         step = min(longest, (2.0 * FIRST_STEP_ERROR / size) ** 0.5) if size > 0.0 else longest
@@ -268,7 +268,7 @@ class HybridRun:
             return
         if self._monitor.halted == "interrupted":
             raise KeyboardInterrupt
-        told = suspect(self._dae, self._evaluator, t, y, yp, self._options.rtol, self._tolerances.atol)
+        told = suspect(self._dae, self._evaluator, t, y, yp, self._options.step_rtol, self._tolerances.atol)
         if self._monitor.halted == "max_steps" or stretch.flag == -1:
             raise too_many_steps(self._monitor, self._options, told)
         raise integration_failure(self._dae, self._evaluator, self._monitor, stretch, t, told)

@@ -84,7 +84,7 @@ class Ida:
             jacobian = jacobian_callback(dae, evaluator, inputs, monitor, dense)
             self._eventsfn = roots.callback() if roots.index.size else None
         self._settings: dict[str, Any] = {
-            "rtol": options.rtol,
+            "rtol": options.step_rtol,
             "atol": atol if dae.n else 1.0,
             "linsolver": self.linear_solver,
             "algebraic_idx": np.flatnonzero(~dae.differential).tolist() or None,

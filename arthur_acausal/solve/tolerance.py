@@ -26,7 +26,7 @@ class Tolerances:
         self, dae: DAE, evaluator: Evaluator, attributes: Attributes, options: SolverOptions
     ) -> None:
         paths, algebraic = list(dae.y_paths), np.flatnonzero(~dae.differential)
-        self._rtol, self._evaluator = options.rtol, evaluator
+        self._rtol, self._evaluator = options.step_rtol, evaluator
         self._least = options.absolute_tolerances(paths, attributes.nominal)
         self._nominal = np.abs(attributes.nominal)
         self._own = ~dae.differential & ~options.given_tolerances(paths)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -51,6 +52,17 @@ def test_absolute_tolerances_follow_the_nominal_values() -> None:
     assert np.allclose(mixed, [1e-1, 1e-9])
     with pytest.raises(UsageError, match="did you mean"):
         SolverOptions(atol={"pp": 1.0}).absolute_tolerances(["p1", "p"], np.ones(2))
+
+
+def test_a_step_is_held_to_more_than_a_tight_tolerance_of_the_run() -> None:
+    assert SolverOptions(rtol=1e-4).step_rtol == 1e-4
+    steps = [SolverOptions(rtol=10.0**-k).step_rtol for k in range(6, 15)]
+    assert all(later < earlier or later == 1e-13 for earlier, later in pairwise(steps))
+    assert steps[4] == pytest.approx(10**-10.8)  # (1e-4)^(6/5) of 1e-6
+    assert steps[-1] == 1e-14  # what the user asks for is never made wider
+    paths, nominal = ["p", "q"], np.array([1e7, 1e-4])
+    mixed = SolverOptions(rtol=1e-10, atol={"q": 1e-12}).absolute_tolerances(paths, nominal)
+    assert mixed == pytest.approx(10**-0.8 * np.array([1e-5, 1e-12]))
 
 
 def test_options_are_frozen_and_become_plain_data() -> None:

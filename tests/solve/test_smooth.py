@@ -91,6 +91,21 @@ def test_oscillator_converges_and_keeps_its_energy() -> None:
     assert all(later < 0.2 * earlier for earlier, later in pairwise(errors))
 
 
+def test_the_error_at_the_end_is_proportional_to_the_tolerance() -> None:
+    """Over many tolerances, for a single run's error scatters. Unmended, it grows by 10^(4/6) in four decades."""
+
+    def error_over_tolerance(decade: float) -> float:
+        ratios = []
+        for rtol in np.geomspace(decade, 10.0 * decade, 8):
+            x, v = simulate(oscillator(), stop_time=20.0, options=SolverOptions(rtol=rtol, intervals=1)).y[-1]
+            ratios.append(np.hypot(x - np.cos(20.0), v + np.sin(20.0)) / rtol)
+        return float(np.exp(np.mean(np.log(ratios))))
+
+    loose = error_over_tolerance(1e-6)
+    assert error_over_tolerance(1e-10) < 2.5 * loose
+    assert error_over_tolerance(1e-11) < 2.5 * loose
+
+
 def test_robertson_reaches_the_reference() -> None:
     stop_time, reference = ROBERTSON_END
     errors = []
