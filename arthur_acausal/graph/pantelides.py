@@ -75,7 +75,6 @@ def pantelides(edges: Edges, derivative_of: Sequence[int]) -> PantelidesResult:
             else:
                 assignment.append(derivative[assignment[equation]])
                 owner[assignment[new]] = new
-                owner[assignment[equation]] = NONE
                 assignment[equation] = NONE
     return PantelidesResult(result, derivative, equation_derivative, assignment)
 

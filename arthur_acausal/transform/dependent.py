@@ -85,12 +85,13 @@ def _risen(node: int, times: int, nodes: Nodes) -> int:
 
 def _tops(derivative: Sequence[int]) -> tuple[list[int], list[int]]:
     """Return for each unknown the highest derivative of its chain, and how many steps below it stands."""
-    top, height = list(range(len(derivative))), [0] * len(derivative)
-    for n in range(len(derivative)):
-        end, steps = n, 0
+    top, height = [], []
+    for end in range(len(derivative)):
+        steps = 0
         while derivative[end] >= 0:
             end, steps = derivative[end], steps + 1
-        top[n], height[n] = end, steps
+        top.append(end)
+        height.append(steps)
     return top, height
 
 

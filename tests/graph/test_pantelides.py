@@ -54,6 +54,11 @@ def test_pendulum_dummy_derivatives() -> None:
     selection = select_states(result.edges, result.derivative, result.equation_derivative, priority)
     assert selection.states == [0, 2]
     assert selection.dummies == [6, 8, 9, 10]
+    # the other way round, near the horizontal, where only y will do
+    priority = [2, 3, 2, 3, 2, 2, 2, 2, 2]
+    selection = select_states(result.edges, result.derivative, result.equation_derivative, priority)
+    assert selection.states == [1, 3]
+    assert selection.dummies == [5, 7, 9, 10]
 
 
 def test_index_one_needs_no_differentiation() -> None:

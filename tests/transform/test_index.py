@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from casadi import cos, sin
@@ -317,6 +319,29 @@ class Followed(Component):
     def equations(self) -> Equations:
         yield "track", self.y == 2 * self.u
         yield "speed", self.v == der(self.y)
+
+
+def test_ropes_that_share_a_weight_are_not_determined_whatever_else_is_wrong() -> None:
+    """Statically indeterminate: the equation told is the one of the ropes, not one of the length said twice."""
+
+    class Ropes(Component):
+        weight: Real = parameter("N", default=10.0)
+        area: Real = parameter("m^2", default=4.0)
+        left: Real = variable("N")
+        right: Real = variable("N")
+        length: Real = variable("m")
+
+        def equations(self) -> Equations:
+            yield "balance", self.left + self.right == self.weight
+            yield "square", self.length**2 == self.area
+            yield "square again", self.area / self.length == self.length
+
+    with pytest.raises(StructureError) as caught:
+        translate(Ropes())
+    message = caught.value.message
+    assert re.search(r'not determined: 1 of left, right \(which stand only in "balance" [^;]*\)', message)
+    assert re.search(r'more than their unknowns: "square".*"square again".*hold only length', message)
+    assert caught.value.remedy == "remove one of the equations named, and add one for what is not determined"
 
 
 def test_the_derivative_of_an_outer_signal_is_refused_with_a_remedy() -> None:
