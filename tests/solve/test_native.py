@@ -129,7 +129,8 @@ def test_failures_are_told_alike(
 
 def test_interrupt_keeps_what_was_computed() -> None:
     def progress(t: float) -> None:
-        raise KeyboardInterrupt
+        if t > 2.0:  # on a busy machine the first report comes with the first step
+            raise KeyboardInterrupt
 
     translation = translate(Jack(), compile="always")
     with pytest.raises(Interrupted) as caught:
