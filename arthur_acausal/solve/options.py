@@ -98,7 +98,7 @@ class SolverOptions:
         """
         if self.rtol >= CALIBRATED_BELOW:
             return self.rtol
-        calibrated = CALIBRATED_BELOW * (self.rtol / CALIBRATED_BELOW) ** (1.0 + 1.0 / HIGHEST_ORDER)
+        calibrated: float = CALIBRATED_BELOW * (self.rtol / CALIBRATED_BELOW) ** (1.0 + 1.0 / HIGHEST_ORDER)
         return max(calibrated, min(self.rtol, LEAST_CALIBRATED))
 
     def replace(self, **changes: Any) -> SolverOptions:
