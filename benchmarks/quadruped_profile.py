@@ -1,13 +1,16 @@
 """Where the time of the robot's trot goes, by clocks that stop each other: each moment counts for one part only.
 
-``factorisation`` is not seen from outside of IDA: it is the number of factorisations times what SUNDIALS' own dense
-factorisation takes for a matrix of this size and pattern; the rest of IDA's time is the ``solver``'s.
+What IDA calls in C is not seen from outside of it, nor is its ``factorisation``. So the number of calls counts, times
+what one takes by itself: of the generated functions, of MuJoCo in states that the run has met, of SUNDIALS' own dense
+factorisation for a matrix of this size and pattern. The rest of IDA's time is the ``solver``'s.
 """
 
 from __future__ import annotations
 
 import ctypes
+import itertools
 import time
+import timeit
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,11 +22,15 @@ import numpy as np
 from arthur_acausal.codegen.compiled import CompiledDAE
 from arthur_acausal.codegen.kernel import Kernel
 from arthur_acausal.models.arthur.walking import Walking
-from arthur_acausal.mujoco.dynamics import Dynamics
+from arthur_acausal.mujoco.dynamics import Dynamics, FloatArray
+from arthur_acausal.mujoco.function import BodyFunction
+from arthur_acausal.mujoco.native import NativeBody
 from arthur_acausal.solve import callbacks, ida
+from arthur_acausal.solve.native import Native
 
 PARTS: tuple[str, ...] = ("MuJoCo", "residual", "Jacobian", "factorisation", "solver", "controller", "Python")
 REPETITIONS = 50
+STATES = 100  # in which MuJoCo is timed by itself
 
 
 class Clocks:
@@ -32,6 +39,9 @@ class Clocks:
     def __init__(self) -> None:
         self.seconds: dict[str, float] = {part: 0.0 for part in PARTS}
         self.factorisations = 0
+        self.native: Native | None = None  # the callbacks in C
+        self.states: list[FloatArray] = []
+        self.seen = 0  # evaluations of MuJoCo that a clock has measured
         self.start()
 
     def start(self) -> None:
@@ -60,12 +70,54 @@ class Clocks:
     def shares(self, dae: CompiledDAE) -> dict[str, float]:
         """Return the part of each in all."""
         seconds = dict(self.seconds)
-        # IDA factorises after each Jacobian
-        factorising = min(self.factorisations * factorisation_s(dae), seconds["solver"])
-        seconds["factorisation"] += factorising
-        seconds["solver"] -= factorising
+        inside = self._inside() | {"factorisation": self._factorisations() * factorisation_s(dae)}
+        for part, hidden in inside.items():
+            found = min(hidden, seconds["solver"])
+            seconds[part] += found
+            seconds["solver"] -= found
         total = sum(seconds.values())
         return {part: value / total for part, value in seconds.items()}
+
+    def _factorisations(self) -> int:
+        """IDA factorises after each Jacobian."""
+        return self.factorisations if self.native is None else self.native.monitor.jacobians
+
+    def _inside(self) -> dict[str, float]:
+        """Return what the callbacks in C have taken [s]."""
+        if self.native is None:
+            return {}
+        evaluator: Any = self.native.evaluator
+        monitor = self.native.monitor
+        residual, jacobian, roots = (
+            getattr(f, "kernel", f) for f in (evaluator.residual, evaluator.jacobian, evaluator.roots)
+        )
+        (body,) = (step for step in evaluator.residual.steps)
+        states, function = itertools.cycle(self.states), body.function
+        out, slopes = np.empty(function.n_outputs), np.empty((function.n_outputs, function.n_inputs))
+
+        def renewed() -> None:
+            function.restart()
+            function.derivative(next(states), slopes)
+
+        evaluations = int(evaluator.external.count) - self.seen
+        renewals = function.renewals
+        return {
+            "MuJoCo": evaluations * mean_s(lambda: function.evaluate(next(states), out))
+            + renewals * mean_s(renewed),
+            "residual": monitor.residuals * (least_s(residual) + least_s(body.inputs))
+            + monitor.roots * least_s(roots),
+            "Jacobian": monitor.jacobians * (least_s(jacobian) + least_s(body.inputs)),
+        }
+
+
+def least_s(call: Callable[[], object]) -> float:
+    """Return what a call takes at the least [s]."""
+    return min(timeit.repeat(call, timer=time.process_time, number=REPETITIONS, repeat=10)) / REPETITIONS
+
+
+def mean_s(call: Callable[[], object]) -> float:
+    """Return what a call takes in the mean [s]."""
+    return timeit.timeit(call, timer=time.process_time, number=2 * STATES) / (2 * STATES)
 
 
 def kernel_part(kernel: Kernel) -> str:
@@ -93,7 +145,22 @@ def watching(clocks: Clocks) -> Iterator[None]:
 
         return made
 
+    evaluate, of = BodyFunction.evaluate, Native.of
+
+    def evaluated(function: BodyFunction, inputs: FloatArray, outputs: FloatArray) -> None:
+        clocks.seen += 1
+        if not function.observes and len(clocks.states) < STATES:
+            clocks.states.append(inputs.copy())
+        evaluate(function, inputs, outputs)
+
+    def made(*arguments: Any) -> Native | None:
+        clocks.native = of(*arguments)
+        return clocks.native
+
     with (
+        patch.object(BodyFunction, "evaluate", evaluated),
+        patch.object(NativeBody, "_call", clocks.timed(NativeBody._call, "MuJoCo")),
+        patch.object(Native, "of", made),
         patch.object(Kernel, "__call__", clocks.timed(Kernel.__call__, kernel_part)),
         patch.object(Dynamics, "forward", clocks.timed(Dynamics.forward, "MuJoCo")),
         patch.object(Walking, "__call__", clocks.timed(Walking.__call__, "controller")),

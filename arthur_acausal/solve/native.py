@@ -69,13 +69,14 @@ class Native:
     ----------
     residual, jacobian : as `residual_callback` and `jacobian_callback` give them.
     roots : as `Roots.callback` gives it; None where no relation is watched.
+    evaluator, monitor : what they evaluate, and count for.
     """
 
     def __init__(
         self, module: Any, dae: DAE, evaluator: Evaluator, roots: Roots, monitor: Monitor, dense: bool
     ) -> None:
-        self._module, self._dae, self._evaluator = module, dae, evaluator
-        self._roots, self._monitor = roots, monitor
+        self._module, self._dae, self.evaluator = module, dae, evaluator
+        self._roots, self.monitor = roots, monitor
         self._counts = np.zeros(len(FIELDS) + 3)
         place = dense_places(dae).astype(np.int64) if dense else None
         # Functions of Python around them, since the binding asks for their signatures, which takes 0.3 ms for one of
@@ -104,7 +105,7 @@ class Native:
 
     def begin(self) -> None:
         """Take over what the monitor has counted."""
-        monitor, counts = self._monitor, self._counts
+        monitor, counts = self.monitor, self._counts
         counts[: len(FIELDS)] = [getattr(monitor, name) for name in FIELDS]
         # the clocks of C and of Python may have other origins
         due = max(monitor.next_report - perf_counter(), 0.0)
@@ -112,7 +113,7 @@ class Native:
 
     def end(self) -> None:
         """Give back what was counted."""
-        monitor, counts = self._monitor, self._counts.tolist()
+        monitor, counts = self.monitor, self._counts.tolist()
         monitor.t, monitor.h = counts[0], counts[1]
         for name, value in zip(FIELDS[2:], counts[2:], strict=False):
             setattr(monitor, name, int(value))
@@ -121,22 +122,22 @@ class Native:
 
     def _refuse(self) -> bool:
         """Whether the residual is refused; see `Monitor.refuse`."""
-        self._monitor.residuals = int(self._counts[FIELDS.index("residuals")])
-        return self._monitor.refuse(self._evaluator, self._evaluator.residual())
+        self.monitor.residuals = int(self._counts[FIELDS.index("residuals")])
+        return self.monitor.refuse(self.evaluator, self.evaluator.residual())
 
     def _watched(self, _: None) -> None:
         """Look at the tolerances now and then; see `Monitor.watch`."""
-        watch, number = self._monitor.watch, self._counts[FIELDS.index("jacobians")]
+        watch, number = self.monitor.watch, self._counts[FIELDS.index("jacobians")]
         if watch is not None and number % WATCHED == 0 and watch():
             self._counts[len(FIELDS)] = HALTED.index("tolerances")
 
     def _bad_jacobian(self) -> None:
-        bad = np.flatnonzero(~np.isfinite(self._evaluator.jacobian()))
+        bad = np.flatnonzero(~np.isfinite(self.evaluator.jacobian()))
         if bad.size:
-            self._monitor.jacobian_offence = (float(self._evaluator.t[0]), int(bad[0]))
+            self.monitor.jacobian_offence = (float(self.evaluator.t[0]), int(bad[0]))
 
     def _bind(self, kind: int, function: Any, slow: Callable[..., object], place: Any = None) -> Any:
-        evaluator, roots, calls = self._evaluator, self._roots, self._evaluator.external
+        evaluator, roots, calls = self.evaluator, self._roots, self.evaluator.external
         kernel, steps = _parts(function)
         generated, made = _generated(kernel), [_external(step) for step in steps]
         externals = (_External * len(steps))(*made)
@@ -169,7 +170,7 @@ class Native:
             SLOPES if steps and function.derivatives else OUTPUTS,
             tally.ctypes.data,
             slow,
-            self._monitor.progress,
+            self.monitor.progress,
             function.prepare if steps else None,
             keep,
         )
