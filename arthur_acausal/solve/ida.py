@@ -110,7 +110,6 @@ class Ida:
         onestep: bool = False,
     ) -> Stretch:
         """Start from (times[0], y, yp) and integrate over the later times; `onestep`: return IDA's own steps."""
-        engine = self._engine(first_step)
         self._monitor.restart()
         self._stepping = None
         start = times[0]
@@ -121,6 +120,7 @@ class Ida:
             times = times[[0, -1]]
         if not self._n:
             y = yp = np.zeros(1)
+        engine = self._engine(first_step, start, y, yp)
         with self._integrating() as printed:
             result = engine.solve(times, y, yp)
         first = 2 if inserted and len(result.t) > 2 else 1
@@ -142,9 +142,10 @@ class Ida:
         """
         if not self.can_continue(times[-1]):
             self._monitor.restart()
-            self._stepping = self._engine(first_step)
-            zero = np.zeros(1)
-            self._stepping.init_step(times[0], y if self._n else zero, yp if self._n else zero)
+            if not self._n:
+                y = yp = np.zeros(1)
+            self._stepping = self._engine(first_step, times[0], y, yp)
+            self._stepping.init_step(times[0], y, yp)
         with self._integrating() as printed:
             results = list(self._steps(times, onestep))
         self._reached = self._monitor.t
@@ -206,13 +207,16 @@ class Ida:
         y, yp = (a.reshape(len(t), -1 if len(t) else self._n)[:, : self._n] for a in (y, yp))
         return Stretch(t, y, yp, end, directions, flag, printed or str(result.message))
 
-    def _engine(self, first_step: float | None) -> Any:
+    def _engine(self, first_step: float | None, t: float, y: FloatArray, yp: FloatArray) -> Any:
         key = 0.0 if first_step is None else 4.0 ** math.floor(math.log(first_step, 4.0))
         if key not in self._engines:
             with warnings.catch_warnings():
                 # "sparsity ignored in favor of jacfn": it gives the pattern of jacfn's values here
                 warnings.simplefilter("ignore")
-                self._engines[key] = load_ida()(self._residual, first_step=key, **self._settings)
+                engine = self._engines[key] = load_ida()(self._residual, first_step=key, **self._settings)
+            if self._native is not None:
+                engine.init_step(t, y, yp)  # sets its memory up
+                self._native.attach(engine)
         return self._engines[key]
 
 

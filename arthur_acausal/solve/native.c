@@ -2,7 +2,10 @@
 
    Each function here has a Python twin in callbacks.py, or for external functions in codegen/calls.py, which says what
    it does, and goes to Python for whatever is rare: a value that is no finite number, a relation that has changed,
-   progress to report, Ctrl-C. */
+   progress to report, Ctrl-C.
+
+   The binding makes arrays of NumPy for each call, which takes longer than most residuals. So, where it is the version
+   whose memory is known, IDA gets the same functions directly: see attach. */
 
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
@@ -19,8 +22,8 @@ typedef struct {
   double t, h, steps, rejected, residuals, jacobians, roots, halted, max_steps, next_report;
 } Counts;
 
-enum { GOING, MAX_STEPS, STALLED_AT, INTERRUPTED };
-static const double STALLED = 4e15, TINY = 1e-300;
+enum { GOING, MAX_STEPS, STALLED_AT, INTERRUPTED, TOLERANCES };
+static const double STALLED = 4e15, TINY = 1e-300, WATCHED = 20.0; /* as in callbacks.py */
 
 /* A generated function with its arrays. */
 typedef struct {
@@ -58,7 +61,7 @@ typedef struct {
   Py_ssize_t externals_count;
   int64_t wanted; /* of the external functions */
   double *tally;  /* their evaluations, and seconds in them */
-  PyObject *slow, *progress, *prepare, *keep;
+  PyObject *slow, *progress, *prepare, *watch, *keep;
 } Call;
 
 static double now(void) {
@@ -91,17 +94,39 @@ static int buffer_of(PyObject *o, Py_buffer *b, Py_ssize_t count, int writable) 
   return 0;
 }
 
-/* Copy the arguments to where the generated functions read them. */
-static int take(Call *c, PyObject *const *args) {
-  Py_buffer b;
-  if (time_of(args[0], c->t)) return -1;
-  if (buffer_of(args[1], &b, c->n, 0)) return -1;
-  memcpy(c->y, b.buf, (size_t)b.len);
-  PyBuffer_Release(&b);
-  if (buffer_of(args[2], &b, c->n, 0)) return -1;
-  memcpy(c->yp, b.buf, (size_t)b.len);
-  PyBuffer_Release(&b);
+/* The arguments of a call from Python: t, y, y'. */
+typedef struct {
+  double t;
+  Py_buffer y, yp, out;
+} Arguments;
+
+/* -1: an exception. */
+static int unpack(Arguments *a, PyObject *const *args, Py_ssize_t n, PyObject *out, Py_ssize_t count) {
+  if (time_of(args[0], &a->t)) return -1;
+  if (buffer_of(args[1], &a->y, n, 0)) return -1;
+  if (buffer_of(args[2], &a->yp, n, 0)) goto y;
+  if (buffer_of(out, &a->out, count, 1)) goto yp;
   return 0;
+yp:
+  PyBuffer_Release(&a->yp);
+y:
+  PyBuffer_Release(&a->y);
+  return -1;
+}
+
+static PyObject *released(Arguments *a, int failed) {
+  PyBuffer_Release(&a->y);
+  PyBuffer_Release(&a->yp);
+  PyBuffer_Release(&a->out);
+  if (failed) return NULL;
+  Py_RETURN_NONE;
+}
+
+/* Copy the arguments to where the generated functions read them. */
+static void take(Call *c, double t, const double *y, const double *yp) {
+  *c->t = t;
+  memcpy(c->y, y, (size_t)c->n * sizeof *y);
+  memcpy(c->yp, yp, (size_t)c->n * sizeof *yp);
 }
 
 static void run(const Generated *g) { g->fn(g->arg, g->res, g->iw, g->w, 0); }
@@ -164,12 +189,82 @@ static int all_finite(const double *x, Py_ssize_t n) {
 }
 
 /* Ask Python about the rare case; -1: an exception, else the truth of its answer. */
-static int ask(Call *c) {
-  PyObject *answer = PyObject_CallNoArgs(c->slow);
+static int ask(PyObject *question) {
+  PyObject *answer = PyObject_CallNoArgs(question);
   if (!answer) return -1;
   int truth = PyObject_IsTrue(answer);
   Py_DECREF(answer);
   return truth;
+}
+
+/* These return -1 after an exception. */
+static int residual_at(Call *c, double t, const double *y, const double *yp, double *r) {
+  int good = 0;
+  if (t != c->counts->t && attempt(c, t)) return -1;
+  if (c->counts->halted == GOING) {
+    c->counts->residuals += 1.0;
+    take(c, t, y, yp);
+    int refused = prepared(c);
+    if (!refused) {
+      run(c->generated);
+      if (!all_finite(c->value, c->n)) refused = ask(c->slow);
+    }
+    if (refused < 0 && halted_by_exception(c)) return -1;
+    good = refused == 0;
+  }
+  if (good)
+    memcpy(r, c->value, (size_t)c->n * sizeof *r);
+  else
+    for (Py_ssize_t i = 0; i < c->n; ++i) r[i] = INFINITY;
+  return 0;
+}
+
+/* Write the entries to their places, 0: one after the other. */
+static int jacobian_at(Call *c, double t, const double *y, const double *yp, double cj, const int64_t *place, double *j) {
+  Counts *k = c->counts;
+  if (k->halted != GOING) return 0;
+  k->jacobians += 1.0;
+  take(c, t, y, yp);
+  if (cj * fabs(t) > STALLED) k->halted = STALLED_AT;
+  if (fmod(k->jacobians, WATCHED) == 0.0) {
+    int widened = ask(c->watch);
+    if (widened < 0) return halted_by_exception(c);
+    if (widened) k->halted = TOLERANCES;
+  }
+  *c->cj = cj; /* a look changes it */
+  if (prepared(c)) return halted_by_exception(c);
+  run(c->generated);
+  if (!all_finite(c->value, c->m) && ask(c->slow) < 0) return halted_by_exception(c);
+  if (place)
+    for (Py_ssize_t i = 0; i < c->m; ++i) j[place[i]] = c->value[i];
+  else
+    memcpy(j, c->value, (size_t)c->m * sizeof *j);
+  return 0;
+}
+
+static int roots_at(Call *c, double t, const double *y, const double *yp, double *g) {
+  int differs = 0, going = c->counts->halted == GOING;
+  if (going) {
+    c->counts->roots += 1.0;
+    take(c, t, y, yp);
+    going = !prepared(c);
+    if (!going && halted_by_exception(c)) return -1;
+  }
+  if (!going) {
+    for (Py_ssize_t i = 0; i < c->places; ++i) g[i] = c->modes[i] ? TINY : -TINY;
+    return 0;
+  }
+  run(c->generated);
+  for (Py_ssize_t i = 0; i < c->places; ++i) {
+    g[i] = c->value[c->place[i]] + c->zero[i];
+    differs |= (g[i] > 0.0) != c->modes[i];
+  }
+  if (!differs) return 0;
+  PyObject *out = PyMemoryView_FromMemory((char *)g, c->places * (Py_ssize_t)sizeof *g, PyBUF_WRITE);
+  PyObject *done = out ? PyObject_CallFunction(c->slow, "dO", t, out) : NULL;
+  Py_XDECREF(out);
+  Py_XDECREF(done);
+  return done ? 0 : halted_by_exception(c);
 }
 
 static Call *call_of(PyObject *self) { return PyCapsule_GetPointer(self, "arthur.call"); }
@@ -177,95 +272,27 @@ static Call *call_of(PyObject *self) { return PyCapsule_GetPointer(self, "arthur
 PyDoc_STRVAR(residual_doc, "residual(t, y, yp, out)\n--\n\n");
 static PyObject *residual(PyObject *self, PyObject *const *args, Py_ssize_t nargs) {
   Call *c = call_of(self);
-  double t;
-  Py_buffer out;
-  if (!c || nargs != 4 || time_of(args[0], &t)) return NULL;
-  if (t != c->counts->t && attempt(c, t)) return NULL;
-  if (buffer_of(args[3], &out, c->n, 1)) return NULL;
-  double *r = out.buf;
-  int good = 0;
-  if (c->counts->halted == GOING) {
-    c->counts->residuals += 1.0;
-    if (take(c, args)) goto failed;
-    int refused = prepared(c);
-    if (!refused) {
-      run(c->generated);
-      if (!all_finite(c->value, c->n)) refused = ask(c);
-    }
-    if (refused < 0 && halted_by_exception(c)) goto failed;
-    good = refused == 0;
-  }
-  if (good)
-    memcpy(r, c->value, (size_t)out.len);
-  else
-    for (Py_ssize_t i = 0; i < c->n; ++i) r[i] = INFINITY;
-  PyBuffer_Release(&out);
-  Py_RETURN_NONE;
-failed:
-  PyBuffer_Release(&out);
-  return NULL;
+  Arguments a;
+  if (!c || nargs != 4 || unpack(&a, args, c->n, args[3], c->n)) return NULL;
+  return released(&a, residual_at(c, a.t, a.y.buf, a.yp.buf, a.out.buf));
 }
 
 PyDoc_STRVAR(jacobian_doc, "jacobian(t, y, yp, res, cj, out)\n--\n\n");
 static PyObject *jacobian(PyObject *self, PyObject *const *args, Py_ssize_t nargs) {
   Call *c = call_of(self);
-  Counts *k = c ? c->counts : NULL;
-  if (!c || nargs != 6) return NULL;
-  if (k->halted != GOING) Py_RETURN_NONE;
-  k->jacobians += 1.0;
-  if (take(c, args) || time_of(args[4], c->cj)) return NULL;
-  if (*c->cj * fabs(*c->t) > STALLED) k->halted = STALLED_AT;
-  if (prepared(c)) {
-    if (halted_by_exception(c)) return NULL;
-    Py_RETURN_NONE;
-  }
-  run(c->generated);
-  if (!all_finite(c->value, c->m) && ask(c) < 0 && halted_by_exception(c)) return NULL;
-  Py_buffer out;
-  if (buffer_of(args[5], &out, c->place ? c->n * c->n : c->m, 1)) return NULL;
-  double *j = out.buf;
-  if (c->place)
-    for (Py_ssize_t i = 0; i < c->m; ++i) j[c->place[i]] = c->value[i];
-  else
-    memcpy(j, c->value, (size_t)out.len);
-  PyBuffer_Release(&out);
-  Py_RETURN_NONE;
+  Arguments a;
+  double cj;
+  if (!c || nargs != 6 || time_of(args[4], &cj)) return NULL;
+  if (unpack(&a, args, c->n, args[5], c->place ? c->n * c->n : c->m)) return NULL;
+  return released(&a, jacobian_at(c, a.t, a.y.buf, a.yp.buf, cj, c->place, a.out.buf));
 }
 
 PyDoc_STRVAR(roots_doc, "roots(t, y, yp, out)\n--\n\n");
 static PyObject *roots(PyObject *self, PyObject *const *args, Py_ssize_t nargs) {
   Call *c = call_of(self);
-  Py_buffer out;
-  if (!c || nargs != 4 || buffer_of(args[3], &out, c->places, 1)) return NULL;
-  double *g = out.buf;
-  int differs = 0, going = c->counts->halted == GOING;
-  if (going) {
-    c->counts->roots += 1.0;
-    if (take(c, args)) goto failed;
-    if (prepared(c)) {
-      if (halted_by_exception(c)) goto failed;
-      going = 0;
-    }
-  }
-  if (going) {
-    run(c->generated);
-    for (Py_ssize_t i = 0; i < c->places; ++i) {
-      g[i] = c->value[c->place[i]] + c->zero[i];
-      differs |= (g[i] > 0.0) != c->modes[i];
-    }
-    if (differs) {
-      PyObject *done = PyObject_CallFunctionObjArgs(c->slow, args[0], args[3], NULL);
-      if (!done && halted_by_exception(c)) goto failed;
-      Py_XDECREF(done);
-    }
-  } else {
-    for (Py_ssize_t i = 0; i < c->places; ++i) g[i] = c->modes[i] ? TINY : -TINY;
-  }
-  PyBuffer_Release(&out);
-  Py_RETURN_NONE;
-failed:
-  PyBuffer_Release(&out);
-  return NULL;
+  Arguments a;
+  if (!c || nargs != 4 || unpack(&a, args, c->n, args[3], c->places)) return NULL;
+  return released(&a, roots_at(c, a.t, a.y.buf, a.yp.buf, a.out.buf));
 }
 
 static PyMethodDef functions[] = {
@@ -279,6 +306,7 @@ static void release(PyObject *capsule) {
   Py_XDECREF(c->slow);
   Py_XDECREF(c->progress);
   Py_XDECREF(c->prepare);
+  Py_XDECREF(c->watch);
   Py_XDECREF(c->keep);
   PyMem_Free(c);
 }
@@ -286,15 +314,15 @@ static void release(PyObject *capsule) {
 static double *address(unsigned long long a) { return (double *)(uintptr_t)a; }
 
 /* bind(kind, generated, n, m, t, y, yp, cj, value, counts, place, places, zero, modes, externals, count, wanted, tally,
-   slow, progress, prepare, keep): addresses as integers, 0 for none; `keep` holds the arrays. */
+   slow, progress, prepare, watch, keep): addresses as integers, 0 for none; `keep` holds the arrays. */
 static PyObject *bind(PyObject *module, PyObject *args) {
   unsigned long long generated, t, y, yp, cj, value, counts, place, zero, modes, externals, tally;
   Py_ssize_t n, m, places, externals_count;
   int kind, wanted;
-  PyObject *slow, *progress, *prepare, *keep;
-  if (!PyArg_ParseTuple(args, "iKnnKKKKKKKnKKKniKOOOO", &kind, &generated, &n, &m, &t, &y, &yp, &cj, &value, &counts,
+  PyObject *slow, *progress, *prepare, *watch, *keep;
+  if (!PyArg_ParseTuple(args, "iKnnKKKKKKKnKKKniKOOOOO", &kind, &generated, &n, &m, &t, &y, &yp, &cj, &value, &counts,
                         &place, &places, &zero, &modes, &externals, &externals_count, &wanted, &tally, &slow, &progress,
-                        &prepare, &keep))
+                        &prepare, &watch, &keep))
     return NULL;
   Call *c = PyMem_Calloc(1, sizeof(Call));
   if (!c) return PyErr_NoMemory();
@@ -318,6 +346,7 @@ static PyObject *bind(PyObject *module, PyObject *args) {
   c->slow = Py_NewRef(slow);
   c->progress = Py_NewRef(progress);
   c->prepare = Py_NewRef(prepare);
+  c->watch = Py_NewRef(watch);
   c->keep = Py_NewRef(keep);
   PyObject *capsule = PyCapsule_New(c, "arthur.call", release);
   if (!capsule) return NULL;
@@ -326,6 +355,79 @@ static PyObject *bind(PyObject *module, PyObject *args) {
   return function;
 }
 
-static PyMethodDef methods[] = {{"bind", bind, METH_VARARGS, "bind(...) -> callable"}, {NULL, NULL, 0, NULL}};
+/* What IDA has of one engine; the names are those of SUNDIALS. */
+typedef struct {
+  PyObject *functions[3];
+  Call *calls[3];
+  int64_t *place; /* of the Jacobian, by columns */
+  double *(*N_VGetArrayPointer)(void *);
+  double *(*SUNDenseMatrix_Data)(void *);
+} Direct;
+
+static int direct_residual(double t, void *y, void *yp, void *r, void *data) {
+  Direct *d = data;
+  return residual_at(d->calls[0], t, d->N_VGetArrayPointer(y), d->N_VGetArrayPointer(yp), d->N_VGetArrayPointer(r));
+}
+
+/* IDA has set the matrix to zero. */
+static int direct_jacobian(double t, double cj, void *y, void *yp, void *r, void *matrix, void *data, void *a, void *b,
+                           void *c) {
+  Direct *d = data;
+  (void)r, (void)a, (void)b, (void)c;
+  return jacobian_at(d->calls[1], t, d->N_VGetArrayPointer(y), d->N_VGetArrayPointer(yp), cj, d->place,
+                     d->SUNDenseMatrix_Data(matrix));
+}
+
+static int direct_roots(double t, void *y, void *yp, double *g, void *data) {
+  Direct *d = data;
+  return roots_at(d->calls[2], t, d->N_VGetArrayPointer(y), d->N_VGetArrayPointer(yp), g);
+}
+
+static void release_direct(PyObject *capsule) {
+  Direct *d = PyCapsule_GetPointer(capsule, "arthur.direct");
+  for (int k = 0; k < 3; k++) Py_XDECREF(d->functions[k]);
+  PyMem_Free(d->place);
+  PyMem_Free(d);
+}
+
+/* attach(engine, residual, jacobian, roots, N_VGetArrayPointer, SUNDenseMatrix_Data, IDASetUserData, IDASetNlsResFn,
+   IDASetJacFn, IDARootInit): let IDA call functions of bind directly, roots may be None; the others are addresses. What
+   is returned must live as long as the engine; None where its memory is not as expected. */
+static PyObject *attach(PyObject *module, PyObject *args) {
+  PyObject *engine, *functions[3];
+  unsigned long long vector, matrix, set_data, set_residual, set_jacobian, set_roots;
+  if (!PyArg_ParseTuple(args, "OOOOKKKKKK", &engine, &functions[0], &functions[1], &functions[2], &vector, &matrix,
+                        &set_data, &set_residual, &set_jacobian, &set_roots))
+    return NULL;
+  /* the fields of a class of Cython stand behind the table of its methods: IDA's memory, SUNDIALS' context */
+  void **fields = (void **)((char *)engine + sizeof(PyObject) + sizeof(void *));
+  void *ida = fields[0], *context = fields[1];
+  if (!ida || !context || *(void **)ida != context) Py_RETURN_NONE; /* the context is what IDA's memory begins with */
+  Direct *d = PyMem_Calloc(1, sizeof(Direct));
+  if (!d) return PyErr_NoMemory();
+  PyObject *capsule = PyCapsule_New(d, "arthur.direct", release_direct);
+  for (int k = 0; k < 3; k++) {
+    d->functions[k] = Py_NewRef(functions[k]);
+    if (functions[k] != Py_None) d->calls[k] = call_of(PyCFunction_GET_SELF(functions[k]));
+  }
+  const Call *j = d->calls[1];
+  d->place = PyMem_Calloc((size_t)j->m, sizeof *d->place);
+  for (Py_ssize_t i = 0; i < j->m; ++i) d->place[i] = j->place[i] % j->n * j->n + j->place[i] / j->n;
+  d->N_VGetArrayPointer = (double *(*)(void *))(uintptr_t)vector;
+  d->SUNDenseMatrix_Data = (double *(*)(void *))(uintptr_t)matrix;
+  int failed = ((int (*)(void *, void *))(uintptr_t)set_data)(ida, d);
+  failed |= ((int (*)(void *, void *))(uintptr_t)set_residual)(ida, (void *)direct_residual);
+  failed |= ((int (*)(void *, void *))(uintptr_t)set_jacobian)(ida, (void *)direct_jacobian);
+  if (d->calls[2])
+    failed |= ((int (*)(void *, int, void *))(uintptr_t)set_roots)(ida, (int)d->calls[2]->places, (void *)direct_roots);
+  if (!failed) return capsule;
+  Py_DECREF(capsule);
+  PyErr_SetString(PyExc_RuntimeError, "IDA refuses its functions");
+  return NULL;
+}
+
+static PyMethodDef methods[] = {{"bind", bind, METH_VARARGS, "bind(...) -> callable"},
+                                {"attach", attach, METH_VARARGS, "attach(...) -> what keeps the functions alive"},
+                                {NULL, NULL, 0, NULL}};
 static struct PyModuleDef definition = {PyModuleDef_HEAD_INIT, "arthur_native", NULL, -1, methods, NULL, NULL, NULL, NULL};
 PyMODINIT_FUNC PyInit_arthur_native(void) { return PyModule_Create(&definition); }

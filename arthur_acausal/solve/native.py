@@ -24,7 +24,7 @@ import numpy as np
 from arthur_acausal.codegen.build import compile_c
 from arthur_acausal.codegen.calls import OUTPUTS, SLOPES, Calls, Prepared, Step
 from arthur_acausal.codegen.kernel import Kernel
-from arthur_acausal.solve.callbacks import WATCHED, Monitor, Roots, dense_places
+from arthur_acausal.solve.callbacks import Monitor, Roots, dense_places
 from arthur_acausal.solve.protocol import DAE, Evaluator
 
 LOGGER = logging.getLogger("arthur_acausal")
@@ -39,6 +39,15 @@ FIELDS = (
 )  # of a Monitor, in the order of Counts
 HALTED = ("", "max_steps", "stalled", "interrupted", "tolerances")
 RESIDUAL, JACOBIAN, ROOTS = range(3)
+KNOWN_BINDING = "1.2.0"
+SUNDIALS = (
+    "N_VGetArrayPointer",
+    "SUNDenseMatrix_Data",
+    "IDASetUserData",
+    "IDASetNlsResFn",
+    "IDASetJacFn",
+    "IDARootInit",
+)
 
 
 @cache
@@ -83,14 +92,24 @@ class Native:
         # C, and keeps events as attributes.
         # Those of C must not hold what holds them: the collector of cycles does not see into them.
         me = weakref.proxy(self)
-        residual = self._bind(RESIDUAL, evaluator.residual, lambda: me._refuse())
-        jacobian = self._bind(JACOBIAN, evaluator.jacobian, lambda: me._bad_jacobian(), place)
-        self.residual = lambda t, y, yp, out: residual(t, y, yp, out)
-        self.jacobian = lambda t, y, yp, res, cj, out: self._watched(jacobian(t, y, yp, res, cj, out))
-        self.roots: Callable[..., None] | None = None
+        self._functions = [
+            self._bind(RESIDUAL, evaluator.residual, lambda: me._refuse()),
+            self._bind(JACOBIAN, evaluator.jacobian, lambda: me._bad_jacobian(), place),
+            None,
+        ]
         if roots.index.size:
-            watched = self._bind(ROOTS, evaluator.roots, roots.differs, roots.index.astype(np.int64))
+            index = roots.index.astype(np.int64)
+            self._functions[ROOTS] = self._bind(
+                ROOTS, evaluator.roots, lambda t, out: roots.differs(t, np.frombuffer(out)), index
+            )
+        residual, jacobian, watched = self._functions
+        self.residual = lambda t, y, yp, out: residual(t, y, yp, out)
+        self.jacobian = lambda t, y, yp, res, cj, out: jacobian(t, y, yp, res, cj, out)
+        self.roots: Callable[..., None] | None = None
+        if watched is not None:
             self.roots = lambda t, y, yp, out: watched(t, y, yp, out)
+        self._attached: list[object] = []
+        self._dense = dense
 
     @classmethod
     def of(
@@ -120,16 +139,20 @@ class Native:
         monitor.halted = HALTED[int(counts[len(FIELDS)])]
         monitor.next_report = perf_counter() + max(counts[-1] - monotonic(), 0.0)
 
+    def attach(self, engine: Any) -> None:
+        """Let an engine whose memory is set up call the functions without the arrays that the binding would make."""
+        sundials = _sundials() if self._dense else None
+        if sundials is not None:
+            inner = engine._IDA__IDA
+            self._attached.append(self._module.attach(inner, *self._functions, *sundials))
+
     def _refuse(self) -> bool:
         """Whether the residual is refused; see `Monitor.refuse`."""
         self.monitor.residuals = int(self._counts[FIELDS.index("residuals")])
         return self.monitor.refuse(self.evaluator, self.evaluator.residual())
 
-    def _watched(self, _: None) -> None:
-        """Look at the tolerances now and then; see `Monitor.watch`."""
-        watch, number = self.monitor.watch, self._counts[FIELDS.index("jacobians")]
-        if watch is not None and number % WATCHED == 0 and watch():
-            self._counts[len(FIELDS)] = HALTED.index("tolerances")
+    def _watch(self) -> bool:
+        return self.monitor.watch is not None and self.monitor.watch()
 
     def _bad_jacobian(self) -> None:
         bad = np.flatnonzero(~np.isfinite(self.evaluator.jacobian()))
@@ -142,6 +165,7 @@ class Native:
         generated, made = _generated(kernel), [_external(step) for step in steps]
         externals = (_External * len(steps))(*made)
         tally = calls.tally if isinstance(calls, Calls) else np.zeros(2)
+        me = weakref.proxy(self)
         keep = (
             generated,
             made,
@@ -172,8 +196,22 @@ class Native:
             slow,
             self.monitor.progress,
             function.prepare if steps else None,
+            lambda: me._watch(),
             keep,
         )
+
+
+@cache
+def _sundials() -> tuple[int, ...] | None:
+    """Return the addresses that `attach` takes, None where the binding is not the one whose memory is known."""
+    import sksundae._cy_ida
+    from sksundae._cy_common import config
+
+    known = (sksundae.__version__, config["SUNDIALS_FLOAT_TYPE"]) == (KNOWN_BINDING, "double")
+    if not known or sysconfig.get_config_var("Py_GIL_DISABLED"):
+        return None
+    library = ctypes.CDLL(sksundae._cy_ida.__file__)
+    return tuple(ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0 for name in SUNDIALS)
 
 
 class _Generated(ctypes.Structure):

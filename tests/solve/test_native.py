@@ -148,6 +148,26 @@ def test_an_error_in_progress_passes() -> None:
         )
 
 
+def test_ida_calls_the_functions_directly_where_it_can(monkeypatch: pytest.MonkeyPatch) -> None:
+    translation = translate(ClutchEngagement(), compile="always")
+    attached: list[object] = []
+    attach = native.Native.attach
+
+    def observed(self: native.Native, engine: object) -> None:
+        attach(self, engine)
+        attached.extend(self._attached)
+
+    monkeypatch.setattr(native.Native, "attach", observed)
+    direct = translation.simulate(2.0)
+    assert attached
+    assert None not in attached
+    monkeypatch.setattr(native, "_sundials", lambda: None)  # another version of the binding
+    attached.clear()
+    by_arrays = translation.simulate(2.0)
+    assert not attached
+    np.testing.assert_array_equal(direct.values(direct.paths), by_arrays.values(by_arrays.paths))
+
+
 SPRING = """
 int evaluate(void *self, const double *in, double *out) {
   double *range = self;
