@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from casadi import SX, fmax, fmin
+from casadi import SX, Function, fmax, fmin
 
 from arthur_acausal import (
     Component,
@@ -13,6 +13,7 @@ from arthur_acausal import (
     parameter,
     real_input,
     real_output,
+    sampled,
     smooth_if_else,
     variable,
 )
@@ -126,24 +127,42 @@ class ForesightFeedForward(PressureControl):
     What is fed forward begins ``lead`` [s] ahead, as rotor and current limit take time to follow, and is the mean
     over ``span`` [s], as the accumulator bridges what is shorter. ``peak`` [1] is the share of the greatest flow
     within the horizon that takes its place, for a supply that cannot store what a peak needs. The window ends at the
-    ``horizon``; the plan is linear between its points.
+    ``horizon``; the plan is linear between its points. It is looked at each ``period`` [s], and held to first order.
     """
 
     k_q: Real = parameter("1", default=1.0, min=0.0, description="share of the flow that is fed forward")
-    lead: Real = parameter("s", default=0.005, min=0.0, description="beginning of the window")
+    lead: Real = parameter("s", default=0.01, min=0.0, description="beginning of the window")
     span: Real = parameter("s", default=0.02, min=0.0, description="length of the window")
     span_min: Real = parameter("s", default=1e-3, min=0.0, description="least length of the window")
     peak: Real = parameter("1", default=0.0, min=0.0, max=1.0, description="share of the greatest flow ahead")
+    period: Real = parameter("s", default=0.004, min=0.0, description="between two looks at the plan")
+    q_ahead: Real = variable("m^3/s", start=0.0, nominal=1e-4, description="flow that is fed forward")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        window = (self.step, self.horizon, self.lead, self.span, self.span_min, self.peak)
+        inputs = [*window, *(ahead.q for ahead in self.plan)]
+        yield sampled(
+            ahead_of(self.steps), period=self.period, inputs=inputs, outputs=[self.q_ahead], hold="first"
+        )
 
     def feed_forward(self) -> SX:
-        begin = fmin(self.lead, self.horizon)
-        width = fmax(fmin(self.span, self.horizon - begin), self.span_min)
-        mean, greatest = SX(0.0), self.plan[0].q
-        for k, ahead in enumerate(self.plan):
-            share = hat_integral((begin + width) / self.step - k) - hat_integral(begin / self.step - k)
-            mean += share * self.step / width * ahead.q
-            greatest = fmax(greatest, smooth_if_else(k * self.step <= self.horizon, ahead.q, 0))
-        return self.k_q * (mean + self.peak * (greatest - mean)) / self.believed.c_L
+        return self.k_q * self.q_ahead / self.believed.c_L
+
+
+def ahead_of(steps: int) -> Function:
+    """Return the function of (t, inputs) of ForesightFeedForward: the flow that is fed forward."""
+    t, inputs = SX.sym("t"), SX.sym("inputs", 6 + steps + 1)
+    step, horizon, lead, span, span_min, peak = (inputs[i] for i in range(6))
+    begin = fmin(lead, horizon)
+    width = fmax(fmin(span, horizon - begin), span_min)
+    mean, greatest = SX(0.0), inputs[6]
+    for k in range(steps + 1):
+        q = inputs[6 + k]
+        share = hat_integral((begin + width) / step - k) - hat_integral(begin / step - k)
+        mean += share * step / width * q
+        greatest = fmax(greatest, smooth_if_else(k * step <= horizon, q, 0))
+    return Function("ahead", [t, inputs], [mean + peak * (greatest - mean)])
 
 
 def hat_integral(x: SX) -> SX:
