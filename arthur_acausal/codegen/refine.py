@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
 from arthur_acausal.codegen.calls import Completion
 from arthur_acausal.codegen.compiled import CompiledDAE
+from arthur_acausal.codegen.kernel import Kernel
 from arthur_acausal.codegen.threads import one_thread
 
 FloatArray = NDArray[np.float64]
@@ -98,16 +100,14 @@ def _newton(dae: CompiledDAE, rows: Rows, complete: Completion) -> tuple[FloatAr
 
 def _residual(dae: CompiledDAE, arguments: list[FloatArray]) -> FloatArray:
     """Return F (nt, n)."""
-    count = arguments[0].shape[1]
-    values = dae.functions["residual"].map(count)(*arguments)
-    return np.asarray(values, dtype=float).reshape(dae.n, count).T
+    return _at_all(dae.functions["residual"], arguments)
 
 
 def _steps(dae: CompiledDAE, rows: Rows, external: list[FloatArray], value: FloatArray) -> FloatArray:
     """Return Newton's steps (nt, n) for the unknowns: y' of states, y of algebraic variables."""
     count, n = len(rows.t), dae.n
     arguments = [*rows.arguments(), *external]
-    dy, dyp = (_entries(dae, name, arguments, count) for name in ("jacobian_y", "jacobian_yp"))
+    dy, dyp = (_at_all(dae.functions[name], arguments) for name in ("jacobian_y", "jacobian_yp"))
     column = np.repeat(np.arange(n), np.diff(dae.sparsity.colind))
     entries = np.where(dae.differential[column], dyp, dy)
     if n > DENSE_UP_TO:
@@ -121,10 +121,20 @@ def _steps(dae: CompiledDAE, rows: Rows, external: list[FloatArray], value: Floa
         return np.asarray(each, dtype=np.float64)
 
 
-def _entries(dae: CompiledDAE, name: str, arguments: list[FloatArray], count: int) -> FloatArray:
-    """Return the nonzeros (nt, nnz) of a Jacobian at all times."""
-    values = dae.functions[name].map(count)(*arguments)
-    return np.array(values.nonzeros(), dtype=float).reshape(count, dae.sparsity.nnz)
+def _at_all(function: ca.Function, arguments: list[FloatArray]) -> FloatArray:
+    """Return the nonzeros (nt, nnz) of a function at all times.
+
+    One call after the other: CasADi's map copies its matrices element by element, which cost ten times as much.
+    """
+    point = [np.zeros(function.nnz_in(i)) for i in range(function.n_in())]
+    kernel = Kernel(function, point)
+    values = np.empty((arguments[0].shape[1], function.nnz_out(0)))
+    columns = [np.ascontiguousarray(np.transpose(a)) for a in arguments]
+    for k in range(len(values)):
+        for array, column in zip(point, columns, strict=True):
+            array[:] = column[k]
+        values[k] = kernel()
+    return values
 
 
 def _sparse_step(dae: CompiledDAE, entries: FloatArray, right: FloatArray) -> FloatArray:
