@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
 
 SMALL = 0.004
 """Terms below this share of the input are drawn together."""
+WIDE = 4
+"""Cascades in a row."""
+ENDS = ("electrical", "stored", "work")
 COLOURS = {"input": "#333333", "loss": "#D55E00", "stored": "#56B4E9", "work": "#009E73"}
 
 
@@ -67,32 +71,43 @@ def body_energy(solution: Solution) -> BodyEnergy:
 
 
 def budget(runs: Mapping[str, Solution]) -> Figure:
-    """Return a picture of the mean powers of some audited runs, by title, beside each other.
+    """Return a picture of the mean powers of some audited runs, by title, beside each other: see `cascades`."""
+    return cascades({title: mean_powers(solution) for title, solution in runs.items()})
+
+
+def mean_powers(solution: Solution) -> dict[str, float]:
+    """Return the mean powers of an audited run [W]: ``electrical``, each loss, ``stored`` and ``work``."""
+    energy, span = solution.energy(), float(solution.t[-1] - solution.t[0])
+    told = {"electrical": energy.input_J, **energy.losses_J, "stored": energy.stored_J, "work": energy.work_J}
+    return {name: value / span for name, value in told.items()}
+
+
+def cascades(powers: Mapping[str, Mapping[str, float]]) -> Figure:
+    """Return a picture of some budgets of `mean_powers`, by title, four in a row.
 
     Each is a cascade from the battery's power down through the losses, in the order of the way of the energy, to what
     is stored and what reaches the joints.
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(5.6 * len(runs), 4.6), layout="constrained")
-    for axes, (title, solution) in zip(
-        figure.subplots(1, len(runs), squeeze=False)[0], runs.items(), strict=True
-    ):
-        _cascade(axes, title, solution)
+    columns = min(len(powers), WIDE)
+    rows = ceil(len(powers) / columns)
+    figure = Figure(figsize=(5.6 * columns, 4.6 * rows), layout="constrained")
+    places = figure.subplots(rows, columns, squeeze=False).flat
+    for axes, (title, told) in zip(places, powers.items(), strict=False):
+        _cascade(axes, title, told)
+    for axes in figure.axes[len(powers) :]:
+        axes.remove()
     return figure
 
 
-def _cascade(axes: Axes, title: str, solution: Solution) -> None:
-    energy, span = solution.energy(), float(solution.t[-1] - solution.t[0])
-    power = energy.input_J / span
-    losses = {name.replace("_", " "): value / span for name, value in energy.losses_J.items()}
+def _cascade(axes: Axes, title: str, told: Mapping[str, float]) -> None:
+    power, stored, work = (told[name] for name in ENDS)
+    losses = {name.replace("_", " "): value for name, value in told.items() if name not in ENDS}
     large = {name: value for name, value in losses.items() if value > SMALL * power}
     rows = [("battery", 0.0, power, COLOURS["input"])]
     left = power
-    ends = [
-        ("stored", energy.stored_J / span, "stored"),
-        ("work on the joints", energy.work_J / span, "work"),
-    ]
+    ends = [("stored", stored, "stored"), ("work on the joints", work, "work")]
     others = ("other losses", sum(losses.values()) - sum(large.values()), "loss")
     for name, value, kind in [*((n, v, "loss") for n, v in large.items()), others, *ends]:
         rows.append((name, left - value, value, COLOURS[kind]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,6 +18,8 @@ HORIZONS = (0.3, 0.0, 0.03, 0.09, 0.18)
 """How far ahead the plan is used [s]; the first is the schemes' own."""
 ERRORS = (0.0, -0.2, -0.1, 0.1, 0.2)
 """By how much the model of a scheme that foresees errs [1]; see the power unit."""
+TOLERANCE = 1e-3
+"""Relative, of the integration: powers are the same as with 1e-4 within 2e-5, energy closes within 2e-6."""
 VARIED = ("trot 0.5",)
 """Tasks at which set points, horizons and errors are varied."""
 
@@ -42,7 +44,9 @@ class Size:
     set_points: int = 5
 
 
-QUICK = Size(tasks=("stand", "trot 0.3", "trot 0.5"), seeds=3, few=2, bare=(), horizons=(), errors=(), set_points=3)
+QUICK = Size(
+    tasks=("stand", "trot 0.3", "trot 0.5"), seeds=3, few=2, bare=(), horizons=(), errors=(), set_points=3
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,31 +62,38 @@ class Case:
 
 
 def main_cases(scheme: Scheme, size: Size) -> list[Case]:
-    """Return the scheme's runs of the main table: every task, as the scheme is."""
-    own = scheme.set_point.values[0]
-    chosen = [TASK[name] for name in size.tasks]
-    return [Case(task, k, own) for task in chosen for k in range(size.seeds if task.core else size.few)]
+    """Return the scheme's runs of the main table: every task, as the scheme is.
+
+    One that knows the demand needs a run that is recorded for each: it has the core tasks, with few seeds.
+    """
+    own, cases = scheme.set_point.values[0], []
+    for task in (TASK[name] for name in size.tasks):
+        if task.core or not scheme.knows:
+            seeds = size.seeds if task.core and not scheme.knows else size.few
+            cases += [Case(task, seed, own) for seed in range(seeds)]
+    return cases
 
 
 def varied_cases(scheme: Scheme, size: Size) -> list[Case]:
     """Return the scheme's runs with one thing changed: set point, accumulator, horizon, or error of the model."""
+    if scheme.knows:
+        return []
     own, *others = scheme.set_point.values[: size.set_points]
-    seeds, varied = range(size.few), [TASK[name] for name in VARIED]
-
-    def all_of(tasks: Sequence[Task]) -> Iterator[tuple[Task, int]]:
-        return ((task, k) for task in tasks for k in seeds)
-
-    cases = [Case(task, k, value) for value in others for task, k in all_of(varied)]
-    bare = [TASK[name] for name in size.bare]
-    cases += [Case(task, k, own, accumulator=False) for task, k in all_of(bare)]
+    varied, bare = ([(TASK[name], k) for name in names for k in range(size.few)] for names in (VARIED, size.bare))
+    cases = [Case(task, k, value) for value in others for task, k in varied]
+    cases += [Case(task, k, own, accumulator=False) for task, k in bare]
     if scheme.foresees:
-        cases += [Case(t, k, own, horizon=h) for h in size.horizons[1:] for t, k in all_of(varied)]
-        cases += [Case(t, k, own, error=e) for e in size.errors[1:] for t, k in all_of(varied)]
+        cases += [Case(task, k, own, horizon=h) for h in size.horizons[1:] for task, k in varied]
+    if scheme.models:
+        cases += [Case(task, k, own, error=e) for e in size.errors[1:] for task, k in varied]
     return cases
 
 
-def specification(scheme: Scheme, cases: Sequence[Case]) -> dict[str, Any]:
-    """Return the sweep of a scheme's runs, as `arthur_acausal.sweep.sweep` takes it."""
+def specification(scheme: Scheme, cases: Sequence[Case], demands: Sequence[str] = ()) -> dict[str, Any]:
+    """Return the sweep of a scheme's runs, as `arthur_acausal.sweep.sweep` takes it.
+
+    ``demands``: for a scheme that knows it, the file with the demand of each case.
+    """
     point = scheme.set_point
     vary: dict[str, list[Any]] = {
         "task": [TASKS.index(case.task) for case in cases],
@@ -94,10 +105,11 @@ def specification(scheme: Scheme, cases: Sequence[Case]) -> dict[str, Any]:
         point.path: [case.set_point * point.unit for case in cases],
     }
     if scheme.foresees:
-        vary |= {
-            "unit.horizon": [case.horizon for case in cases],
-            "unit.model_error": [case.error for case in cases],
-        }
+        vary["unit.horizon"] = [case.horizon for case in cases]
+    if scheme.models:
+        vary["unit.model_error"] = [case.error for case in cases]
+    if demands:
+        vary["demand"] = list(demands)
     poses = [pose(case.seed) for case in cases]
     vary |= {f"body.{joint}_phi": [p[i] for p in poses] for i, joint in enumerate(JOINT_NAMES)}
     return {
@@ -105,7 +117,7 @@ def specification(scheme: Scheme, cases: Sequence[Case]) -> dict[str, Any]:
         "method": "zip",
         "set": {"scheme": scheme.name},
         "stop_time": max(case.task.end for case in cases) + 0.1,
-        "tolerance": 1e-3,
+        "tolerance": TOLERANCE,
         "output": {
             "trajectories": False,
             "interval": 0.01,

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import pi
 
 from arthur_acausal import UsageError
+from arthur_acausal.models.arthur.demand import Demand
 from arthur_acausal.models.arthur.power_unit import PumpLaw
 from arthur_acausal.models.arthur.quadruped_options import QuadrupedOptions
 
@@ -35,28 +36,34 @@ class Scheme:
 
     Attributes
     ----------
-    name, says : as tables and figures have it, and in a few words. law : of the power unit.
-    set_point : what it keeps. foresees : whether it uses the plan of the legs.
+    name, says : as tables and figures have it, and in a few words; the name is the law's of the power unit.
+    set_point : what it keeps. foresees : whether it uses the plan of the legs. models : whether it uses a model of the
+        pump, which may err. knows : whether it knows the demand from a run before.
     """
 
-    name: str
+    name: PumpLaw
     says: str
-    law: PumpLaw
     set_point: SetPoint = PRESSURE
     foresees: bool = False
+    models: bool = False
+    knows: bool = False
 
-    def options(self, accumulator: bool) -> QuadrupedOptions:
+    def options(self, accumulator: bool, known: Demand | None = None) -> QuadrupedOptions:
         """Return the hydraulics with this scheme."""
-        return replace(QuadrupedOptions(), pump=self.law, accumulator=accumulator)
+        return QuadrupedOptions(pump=self.name, accumulator=accumulator, known=known)
 
 
 SCHEMES = (
-    Scheme("constant speed", "turns at 5000 rpm; the relief valve keeps the pressure", "constant speed", SPEED),
-    Scheme("pressure", "PI on the supply pressure", "pressure"),
-    Scheme("feed-forward", "PI with feed-forward of the present flow", "feed-forward"),
+    Scheme("constant speed", "turns at one speed; the relief valve keeps the pressure", SPEED),
+    Scheme("pressure", "PI on the supply pressure"),
+    Scheme("feed-forward", "PI with feed-forward of the flow asked for now", models=True),
+    Scheme("foresight", "PI with feed-forward of the flow that is planned", foresees=True, models=True),
+    Scheme("predictive", "model predictive, pressure given", foresees=True, models=True),
+    Scheme("predictive pressure", "model predictive, pressure a decision", foresees=True, models=True),
+    Scheme("clairvoyant", "model predictive, knows the demand of the same run before", models=True, knows=True),
 )
 BASELINE, PRESENT = "constant speed", "feed-forward"
-"""What the others are compared with: without any control, and with that of the present flow alone."""
+"""What the others are compared with: no control, and control by what is measured now. PRESENT's demand is recorded."""
 
 
 def scheme_named(name: str) -> Scheme:

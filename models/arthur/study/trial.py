@@ -10,6 +10,7 @@ from casadi import SX
 from numpy.typing import NDArray
 
 from arthur_acausal import Equations, Real, parameter, terminate, time, when
+from arthur_acausal.models.arthur.demand import Demand
 from arthur_acausal.models.arthur.locomotion.controller import Configuration
 from arthur_acausal.models.arthur.quadruped import Quadruped
 from arthur_acausal.models.arthur.study.schemes import scheme_named
@@ -49,7 +50,7 @@ class TrialWalking:
 class Trial(Quadruped):
     """The quadruped with a pump scheme at a task, audited; it ends after ``duration``.
 
-    Structural parameters: ``scheme`` by its name, ``accumulator``.
+    Structural parameters: ``scheme`` by its name, ``accumulator``; ``demand``, a file with what is known.
     """
 
     audit: bool = True
@@ -57,6 +58,7 @@ class Trial(Quadruped):
     controller: Any = TrialWalking()
     scheme: str = "feed-forward"
     accumulator: bool = True
+    demand: str = ""
     task: Real = parameter("1", default=3, min=0, max=len(TASKS) - 1, description="number of the task")
     noise: Real = parameter("1", default=0, min=0, description="seed of the sensors' noise")
     duration: Real = parameter("s", default=2.5, min=0.0)
@@ -64,7 +66,8 @@ class Trial(Quadruped):
     push_duration: Real = parameter("s", default=PUSH_DURATION, min=0.0)
 
     def build(self) -> None:
-        self.options = scheme_named(self.scheme).options(self.accumulator)
+        known = Demand.load(self.demand) if self.demand else None
+        self.options = scheme_named(self.scheme).options(self.accumulator, known)
         super().build()
 
     def sensors(self) -> list[SX]:

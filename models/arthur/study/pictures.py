@@ -1,0 +1,107 @@
+"""The study's figures: fronts of power against sag and force error, cascades of losses, horizon and error."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from arthur_acausal.models.arthur.budget import cascades
+from arthur_acausal.models.arthur.study.comparison import FRONTS, TRIED, Comparison
+from arthur_acausal.models.arthur.study.design import ERRORS, HORIZONS
+from arthur_acausal.models.arthur.study.measures import LOSSES
+from arthur_acausal.models.arthur.study.statistics import estimate
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+COLOURS = ("#333333", "#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00")
+MARKS = "osD^vPX"
+TITLES = {"undershoot_bar_rms": "supply undershoot, rms [bar]", "force_error_rms": "force error, rms [N]"}
+
+
+def figures(comparison: Comparison) -> dict[str, Figure]:
+    """Return the figures by their file names; those of what was not varied are left out."""
+    found = {"pareto": fronts(comparison)}
+    for task in ("stand", TRIED):
+        if task in comparison.tasks:
+            found[f"cascade-{task.replace(' ', '-')}"] = losses(comparison, task)
+    for name, values, title, unit in (
+        ("horizon", HORIZONS, "horizon [ms]", 1e3),
+        ("error", ERRORS, "error of the pump's size in the model [%]", 100.0),
+    ):
+        if any(r.case.horizon != HORIZONS[0] if name == "horizon" else r.case.error for r in comparison.results):
+            found[name] = varied(comparison, name, values, title, unit)
+    return found
+
+
+def fronts(comparison: Comparison) -> Figure:
+    """Return electrical power against sag and against the force error, a line a scheme over its set points."""
+    from matplotlib.figure import Figure
+
+    points = comparison.points()
+    figure = Figure(figsize=(11.0, 4.8), layout="constrained")
+    for axes, name in zip(figure.subplots(1, len(FRONTS)), FRONTS, strict=True):
+        for k, scheme in enumerate(comparison.schemes):
+            mine = [p for p in points if p["scheme"] == scheme.name and p[name] is not None]
+            mine.sort(key=lambda p: p["set_point"])
+            x, y = ([p[what] for p in mine] for what in (name, "electrical_W"))
+            dx, dy = ([p[f"{what}_ci95"] or 0.0 for p in mine] for what in (name, "electrical_W"))
+            axes.errorbar(
+                x, y, yerr=dy, xerr=dx, color=COLOURS[k], marker=MARKS[k], markersize=4.0, lw=1.0,
+                elinewidth=0.6, label=scheme.name,
+            )  # fmt: skip
+            own = [p for p in mine if p["set_point"] == scheme.set_point.values[0]]
+            axes.plot(
+                [p[name] for p in own], [p["electrical_W"] for p in own], MARKS[k], ms=9.0, mfc="none",
+                mec=COLOURS[k],
+            )  # fmt: skip
+        axes.set_xlabel(TITLES[name])
+        axes.set_ylabel("battery power [W]")
+        axes.set_ylim(bottom=0.0)
+        axes.set_xlim(left=0.0)
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.set_title(f"{TRIED} m/s: down and left is better; ringed: own set point", fontsize=10.0)
+    figure.axes[0].legend(fontsize=8.0)
+    return figure
+
+
+def losses(comparison: Comparison, task: str) -> Figure:
+    """Return the cascade of mean powers of each scheme at a task: the report's figure 2-2."""
+    powers = {}
+    for scheme in comparison.schemes:
+        told = {name: comparison.mean(scheme, task, f"{name}_W").mean for name in ("electrical", "stored", "work", *LOSSES)}
+        if None not in told.values():
+            powers[f"{scheme.name}, {task}"] = told
+    return cascades(powers)  # type: ignore[arg-type]
+
+
+def varied(comparison: Comparison, name: str, values: Sequence[float], title: str, unit: float) -> Figure:
+    """Return power and sag over the horizon or the model's error, of the schemes that have them."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(11.0, 4.2), layout="constrained")
+    panels: list[tuple[Axes, str, str]] = list(
+        zip(
+            figure.subplots(1, 2),
+            ("electrical_W", "undershoot_bar_rms"),
+            ("battery power [W]", TITLES["undershoot_bar_rms"]),
+            strict=True,
+        )
+    )
+    for axes, measure, label in panels:
+        for k, scheme in enumerate(comparison.schemes):
+            if not (scheme.foresees if name == "horizon" else scheme.models and not scheme.knows):
+                continue
+            told = {x: estimate(r[measure] for r in comparison.changed(scheme, name, x)) for x in sorted(values)}
+            known = {x: e for x, e in told.items() if e.mean is not None}
+            axes.errorbar(
+                [x * unit for x in known], [e.mean for e in known.values()],
+                yerr=[e.ci95 or 0.0 for e in known.values()], color=COLOURS[k], marker=MARKS[k], ms=4.0, lw=1.0,
+                elinewidth=0.6, label=scheme.name,
+            )  # fmt: skip
+        axes.set_xlabel(title)
+        axes.set_ylabel(label)
+        axes.spines[["top", "right"]].set_visible(False)
+    figure.axes[0].legend(fontsize=8.0)
+    return figure

@@ -1,0 +1,71 @@
+"""The study's tables as files: every run, the fronts' points, the main table in Markdown."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from arthur_acausal.models.arthur.study.comparison import Comparison, describe
+from arthur_acausal.models.arthur.study.statistics import Estimate
+
+COLUMNS = {
+    "electrical_W": ("battery W", "{:.0f}"),
+    "relief_W": ("relief W", "{:.0f}"),
+    "valves_W": ("throttling W", "{:.0f}"),
+    "pump_leakage_W": ("leakage W", "{:.0f}"),
+    "copper_W": ("windings W", "{:.0f}"),
+    "undershoot_bar_rms": ("sag rms bar", "{:.2f}"),
+    "undershoot_bar_max": ("sag max bar", "{:.1f}"),
+    "force_error_rms": ("force error N", "{:.1f}"),
+    "speed_error": ("speed error", "{:+.1%}"),
+    "cost_of_transport": ("cost of transport", "{:.1f}"),
+    "mission_h": ("mission h", "{:.2f}"),
+}
+"""Measure -> heading and format in the main table."""
+
+
+def write_runs(file: Path, comparison: Comparison) -> None:
+    """Write every run, also those that fell or failed."""
+    names = ["fell", *comparison.measures]
+    rows = [
+        {"scheme": r.scheme.name, **describe(r.case), "status": r.status, **{n: r.values.get(n, "") for n in names}}
+        for r in comparison.results
+    ]
+    write_rows(file, rows)
+
+
+def write_rows(file: Path, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Write rows of the same keys as CSV; None stays empty."""
+    with file.open("w", newline="", encoding="utf-8") as stream:
+        table = csv.DictWriter(stream, list(rows[0]))
+        table.writeheader()
+        for row in rows:
+            table.writerow({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()})
+
+
+def main_table(comparison: Comparison) -> str:
+    """Return the main table as Markdown: a section a task, a line a scheme."""
+    head = "| scheme | runs | falls | " + " | ".join(title for title, _ in COLUMNS.values()) + " |"
+    parts = []
+    for task in comparison.tasks:
+        lines = [f"### {task}", "", head, "|" + "---|" * (len(COLUMNS) + 3)]
+        for scheme in comparison.schemes:
+            runs = comparison.main(scheme, task)
+            if not runs:
+                continue
+            cells = [text(comparison.mean(scheme, task, name), form) for name, (_, form) in COLUMNS.items()]
+            fell, failed = sum(r["fell"] == 1.0 for r in runs), sum(r.failed for r in runs)
+            falls = f"{fell}" + (f", {failed} failed" if failed else "")
+            lines.append(f"| {scheme.name} | {len(runs)} | {falls} | " + " | ".join(cells) + " |")
+        parts.append("\n".join(lines))
+    return "\n\n".join(parts)
+
+
+def text(estimate: Estimate, form: str) -> str:
+    """Return mean and half width of the interval; nothing where there is no mean."""
+    if estimate.mean is None:
+        return ""
+    half = "" if estimate.ci95 is None else f" ± {form.replace('+', '').format(estimate.ci95)}"
+    return form.format(estimate.mean) + half
