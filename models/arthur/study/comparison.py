@@ -74,7 +74,9 @@ class Comparison:
                         continue
                     told = {name: paired(these, those, name).as_data() for name in COMPARED}
                     saved = paired(these, those, "electrical_W", relative=True).as_data()
-                    rows.append({"scheme": scheme.name, "less": other, "task": task, "relative_W": saved} | told)
+                    rows.append(
+                        {"scheme": scheme.name, "less": other, "task": task, "relative_W": saved} | told
+                    )
         return rows
 
     def equal_sag(self, measure: str = "undershoot_bar_rms") -> list[dict[str, Any]]:
@@ -85,12 +87,18 @@ class Comparison:
                 for other in self.schemes:
                     if not (other.foresees or other.knows):
                         found = at_equal(self.main(scheme, TRIED), self.at_set_points(other), measure)
-                        rows.append({"scheme": scheme.name, "than": other.name, "relative_W": found.as_data()})
+                        rows.append(
+                            {"scheme": scheme.name, "than": other.name, "relative_W": found.as_data()}
+                        )
         return rows
 
     def at_set_points(self, scheme: Scheme) -> list[Result]:
         """Return the runs of a scheme at all its set points, otherwise unchanged."""
-        return [r for r in self.results if r.scheme is scheme and r.case == _plain(r.case, set_point=r.case.set_point)]
+        return [
+            r
+            for r in self.results
+            if r.scheme is scheme and r.case == _plain(r.case, set_point=r.case.set_point)
+        ]
 
     def changed(self, scheme: Scheme, name: str, value: Any, task: str = TRIED) -> list[Result]:
         """Return the runs at a task where one thing of the cases has a value, all others being the scheme's own."""
@@ -111,7 +119,11 @@ class Comparison:
                 at = [r for r in runs if r.case.set_point == value and r.case.task.name == TRIED]
                 if not at:
                     continue
-                row: dict[str, Any] = {"scheme": scheme.name, "set_point": value, "unit": scheme.set_point.name}
+                row: dict[str, Any] = {
+                    "scheme": scheme.name,
+                    "set_point": value,
+                    "unit": scheme.set_point.name,
+                }
                 for name in ("electrical_W", *FRONTS):
                     told = estimate(r[name] for r in at)
                     row |= {name: told.mean, f"{name}_ci95": told.ci95, "n": told.n}

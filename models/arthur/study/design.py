@@ -37,7 +37,7 @@ class Size:
 
     tasks: tuple[str, ...] = tuple(TASK)
     seeds: int = 10
-    few: int = 3
+    few: int = 10
     bare: tuple[str, ...] = ("stand", "trot 0.5")
     horizons: tuple[float, ...] = HORIZONS
     errors: tuple[float, ...] = ERRORS
@@ -79,7 +79,9 @@ def varied_cases(scheme: Scheme, size: Size) -> list[Case]:
     if scheme.knows:
         return []
     own, *others = scheme.set_point.values[: size.set_points]
-    varied, bare = ([(TASK[name], k) for name in names for k in range(size.few)] for names in (VARIED, size.bare))
+    varied, bare = (
+        [(TASK[name], k) for name in names for k in range(size.few)] for names in (VARIED, size.bare)
+    )
     cases = [Case(task, k, value) for value in others for task, k in varied]
     cases += [Case(task, k, own, accumulator=False) for task, k in bare]
     if scheme.foresees:

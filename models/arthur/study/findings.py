@@ -61,7 +61,9 @@ def _against_baseline(comparison: Comparison) -> str:
             if scheme.name == BASELINE or not these or not those:
                 continue
             kind = "relief, standing" if task == "stand" else "relief, moving"
-            relief, power = (paired(these, those, name, relative=True) for name in ("relief_W", "electrical_W"))
+            relief, power = (
+                paired(these, those, name, relative=True) for name in ("relief_W", "electrical_W")
+            )
             cells = [*_judged(relief, EXPECTED[kind]), *_judged(power, EXPECTED["electrical"])]
             lines.append(f"| {scheme.name} | {task} | " + " | ".join(cells) + " |")
     if len(lines) == 2:
@@ -77,10 +79,8 @@ def _judged(saving: Estimate, expected: tuple[float, float]) -> list[str]:
     if saving.mean is None:
         return ["", f"{low:.0%} to {high:.0%}", "open"]
     saved, half = -saving.mean, saving.ci95 or 0.0
-    if low <= saved + half and saved - half <= high:
-        verdict = "confirmed"
-    else:
-        verdict = "less" if saved < low else "more"
+    within = low <= saved + half and saved - half <= high
+    verdict = "confirmed" if within else "less" if saved < low else "more"
     return [text(Estimate(saved, saving.ci95, saving.n), "{:.1%}"), f"{low:.0%} to {high:.0%}", verdict]
 
 
@@ -105,8 +105,9 @@ def _against_present(comparison: Comparison, foreseeing: Sequence[Scheme]) -> st
 
 def _verdict(power: Estimate, sag: Estimate) -> str:
     """Return what two differences mean."""
-    less, more = (e.certain and (e.mean or 0.0) < 0.0 for e in (power, sag)), (
-        e.certain and (e.mean or 0.0) > 0.0 for e in (power, sag)
+    less, more = (
+        (e.certain and (e.mean or 0.0) < 0.0 for e in (power, sag)),
+        (e.certain and (e.mean or 0.0) > 0.0 for e in (power, sag)),
     )
     (power_less, sag_less), (power_more, sag_more) = tuple(less), tuple(more)
     if power_less and not sag_more:

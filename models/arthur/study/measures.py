@@ -19,6 +19,8 @@ FloatArray = NDArray[np.float64]
 BAR = 1e5
 WANTED = 135.0
 """Supply pressure that the legs count on [bar]: the same for all schemes, whatever each is told to keep."""
+LIMIT = 50.0
+"""Current that the motor's drive shall give [A]; it is not limited, but told."""
 BATTERY_WH = 222.0
 """Energy of the battery [W h], for the time of a mission: 12 cells of 5 A h; assumed."""
 LOSSES = {name: f"unit.energy_{name}.E" for name in POWERS if name != "input"}
@@ -30,7 +32,8 @@ def measures(solution: Solution) -> dict[str, float]:
 
     Mean powers [W] are differences of the audit's energies: ``electrical_W`` from the battery, each loss by its name,
     ``work_W`` on the joints, ``stored_W``. ``undershoot_bar_rms`` and ``_max`` are the depth below WANTED of the supply
-    pressure, ``undershoot_share`` the share of the time below it by more than 1 bar. ``force_error_rms`` [N] is that of
+    pressure, ``undershoot_share`` the share of the time below it by more than 1 bar; ``shortfall_bar_*``
+    the depth below the pressure that the planned motion needs at that time. ``over_current_share`` is that of the time above LIMIT. ``force_error_rms`` [N] is that of
     all cylinders, ``force_error_share`` relative to the demand's. ``cost_of_transport`` is the battery's energy over
     weight and way.
     """
@@ -38,7 +41,7 @@ def measures(solution: Solution) -> dict[str, float]:
     told = {
         "fell": float(solution.final("fallen")),
         "closure": solution.energy().closure,
-        **{name: float(number) for name, number in counts(solution).items()},
+        **{name: float(number) for name, number in counts(solution).items() if name != "over_current"},
     }
     inside = (solution.t >= task.begin) & (solution.t <= task.end)
     if told["fell"] or not inside.any():
@@ -63,11 +66,16 @@ def _powers(solution: Solution, inside: NDArray[np.bool_]) -> dict[str, float]:
 def _supply(solution: Solution, inside: NDArray[np.bool_]) -> dict[str, float]:
     t, p = solution.t[inside], solution["unit.manifold.p"][inside] / BAR
     depth, span = np.maximum(WANTED - p, 0.0), float(np.ptp(t))
+    current = solution["unit.motor.I"][inside]
+    short = np.maximum(solution["unit.control.plan[0].p"][inside] / BAR - p, 0.0)
     return {
+        "over_current_share": float(np.trapezoid((current > LIMIT).astype(float), t)) / span,
         "pressure_bar": float(np.trapezoid(p, t)) / span,
         "undershoot_bar_rms": float(np.sqrt(np.trapezoid(depth**2, t) / span)),
         "undershoot_bar_max": float(depth.max()),
-        "undershoot_share": float(np.trapezoid(depth > 1.0, t)) / span,
+        "shortfall_bar_rms": float(np.sqrt(np.trapezoid(short**2, t) / span)),
+        "shortfall_bar_max": float(short.max()),
+        "undershoot_share": float(np.trapezoid((depth > 1.0).astype(float), t)) / span,
     }
 
 

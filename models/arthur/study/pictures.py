@@ -22,15 +22,17 @@ TITLES = {"undershoot_bar_rms": "supply undershoot, rms [bar]", "force_error_rms
 
 def figures(comparison: Comparison) -> dict[str, Figure]:
     """Return the figures by their file names; those of what was not varied are left out."""
-    found = {"pareto": fronts(comparison)}
+    found = {"pareto": fronts(comparison)} if comparison.points() else {}
     for task in ("stand", TRIED):
-        if task in comparison.tasks:
-            found[f"cascade-{task.replace(' ', '-')}"] = losses(comparison, task)
+        if powers := losses(comparison, task):
+            found[f"cascade-{task.replace(' ', '-')}"] = cascades(powers)
     for name, values, title, unit in (
         ("horizon", HORIZONS, "horizon [ms]", 1e3),
         ("error", ERRORS, "error of the pump's size in the model [%]", 100.0),
     ):
-        if any(r.case.horizon != HORIZONS[0] if name == "horizon" else r.case.error for r in comparison.results):
+        if any(
+            r.case.horizon != HORIZONS[0] if name == "horizon" else r.case.error for r in comparison.results
+        ):
             found[name] = varied(comparison, name, values, title, unit)
     return found
 
@@ -66,14 +68,16 @@ def fronts(comparison: Comparison) -> Figure:
     return figure
 
 
-def losses(comparison: Comparison, task: str) -> Figure:
-    """Return the cascade of mean powers of each scheme at a task: the report's figure 2-2."""
+def losses(comparison: Comparison, task: str) -> dict[str, dict[str, float]]:
+    """Return the mean powers of each scheme at a task by its title, for the cascades of the report's figure 2-2."""
     powers = {}
     for scheme in comparison.schemes:
-        told = {name: comparison.mean(scheme, task, f"{name}_W").mean for name in ("electrical", "stored", "work", *LOSSES)}
-        if None not in told.values():
-            powers[f"{scheme.name}, {task}"] = told
-    return cascades(powers)  # type: ignore[arg-type]
+        names = ("electrical", "stored", "work", *LOSSES)
+        told = {name: comparison.mean(scheme, task, f"{name}_W").mean for name in names}
+        known = {name: value for name, value in told.items() if value is not None}
+        if len(known) == len(told):
+            powers[f"{scheme.name}, {task}"] = known
+    return powers
 
 
 def varied(comparison: Comparison, name: str, values: Sequence[float], title: str, unit: float) -> Figure:
@@ -93,10 +97,12 @@ def varied(comparison: Comparison, name: str, values: Sequence[float], title: st
         for k, scheme in enumerate(comparison.schemes):
             if not (scheme.foresees if name == "horizon" else scheme.models and not scheme.knows):
                 continue
-            told = {x: estimate(r[measure] for r in comparison.changed(scheme, name, x)) for x in sorted(values)}
+            told = {
+                x: estimate(r[measure] for r in comparison.changed(scheme, name, x)) for x in sorted(values)
+            }
             known = {x: e for x, e in told.items() if e.mean is not None}
             axes.errorbar(
-                [x * unit for x in known], [e.mean for e in known.values()],
+                [x * unit for x in known], [e.mean or 0.0 for e in known.values()],
                 yerr=[e.ci95 or 0.0 for e in known.values()], color=COLOURS[k], marker=MARKS[k], ms=4.0, lw=1.0,
                 elinewidth=0.6, label=scheme.name,
             )  # fmt: skip

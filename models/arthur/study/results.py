@@ -61,7 +61,9 @@ def results(schemes: Sequence[Scheme], size: Size, sweep: Sweeping, folder: Path
         for part, cases in (("main", main_cases(scheme, size)), ("varied", varied_cases(scheme, size))):
             if cases:
                 demands = [str(recorded(case, folder / "demand")) for case in cases] if scheme.knows else []
-                table = sweep(f"{scheme.name.replace(' ', '-')}-{part}", specification(scheme, cases, demands))
+                table = sweep(
+                    f"{scheme.name.replace(' ', '-')}-{part}", specification(scheme, cases, demands)
+                )
                 found += _rows(scheme, cases, table)
     return found
 

@@ -60,7 +60,9 @@ SCHEMES = (
     Scheme("foresight", "PI with feed-forward of the flow that is planned", foresees=True, models=True),
     Scheme("predictive", "model predictive, pressure given", foresees=True, models=True),
     Scheme("predictive pressure", "model predictive, pressure a decision", foresees=True, models=True),
-    Scheme("clairvoyant", "model predictive, knows the demand of the same run before", models=True, knows=True),
+    Scheme(
+        "clairvoyant", "model predictive, knows the demand of the same run before", models=True, knows=True
+    ),
 )
 BASELINE, PRESENT = "constant speed", "feed-forward"
 """What the others are compared with: no control, and control by what is measured now. PRESENT's demand is recorded."""

@@ -57,7 +57,9 @@ def share(happened: Sequence[bool]) -> Estimate:
     return Estimate(p, float(max(centre + half - p, p - centre + half)), n)
 
 
-def paired(these: Iterable[Result], those: Iterable[Result], measure: str, relative: bool = False) -> Estimate:
+def paired(
+    these: Iterable[Result], those: Iterable[Result], measure: str, relative: bool = False
+) -> Estimate:
     """Return the difference of a measure, these less those, of the same task and seed; or as a share of those."""
     before = {(r.case.task.name, r.case.seed): r[measure] for r in those}
     differences = []
@@ -78,7 +80,9 @@ def at_equal(these: Iterable[Result], curve: Sequence[Result], measure: str) -> 
     differences = []
     for r in these:
         points = sorted(
-            (c[measure], c["electrical_W"]) for c in curve if c.case.seed == r.case.seed and isfinite(c[measure])
+            (c[measure], c["electrical_W"])
+            for c in curve
+            if c.case.seed == r.case.seed and isfinite(c[measure])
         )
         if len(points) > 1 and points[0][0] <= r[measure] <= points[-1][0]:
             x, y = zip(*points, strict=True)

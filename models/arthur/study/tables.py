@@ -30,14 +30,21 @@ def write_runs(file: Path, comparison: Comparison) -> None:
     """Write every run, also those that fell or failed."""
     names = ["fell", *comparison.measures]
     rows = [
-        {"scheme": r.scheme.name, **describe(r.case), "status": r.status, **{n: r.values.get(n, "") for n in names}}
+        {
+            "scheme": r.scheme.name,
+            **describe(r.case),
+            "status": r.status,
+            **{n: r.values.get(n, "") for n in names},
+        }
         for r in comparison.results
     ]
     write_rows(file, rows)
 
 
 def write_rows(file: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write rows of the same keys as CSV; None stays empty."""
+    """Write rows of the same keys as CSV; None stays empty. Of no rows nothing is written."""
+    if not rows:
+        return
     with file.open("w", newline="", encoding="utf-8") as stream:
         table = csv.DictWriter(stream, list(rows[0]))
         table.writeheader()

@@ -50,6 +50,9 @@ class TrialWalking:
 class Trial(Quadruped):
     """The quadruped with a pump scheme at a task, audited; it ends after ``duration``.
 
+    It does not count how often the motor's current exceeds its limit, as each time would be an event, which takes
+    longer than all else where the sensors' noise reaches the current: `measures` tells for how long.
+
     Structural parameters: ``scheme`` by its name, ``accumulator``; ``demand``, a file with what is known.
     """
 
@@ -62,6 +65,7 @@ class Trial(Quadruped):
     task: Real = parameter("1", default=3, min=0, max=len(TASKS) - 1, description="number of the task")
     noise: Real = parameter("1", default=0, min=0, description="seed of the sensors' noise")
     duration: Real = parameter("s", default=2.5, min=0.0)
+    I_max: Real = parameter("A", default=1e3, min=0.0, description="out of reach: nothing is counted")
     t_push: Real = parameter("s", default=PUSHED, min=0.0, description="beginning of the push")
     push_duration: Real = parameter("s", default=PUSH_DURATION, min=0.0)
 
