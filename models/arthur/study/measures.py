@@ -32,10 +32,10 @@ def measures(solution: Solution) -> dict[str, float]:
 
     Mean powers [W] are differences of the audit's energies: ``electrical_W`` from the battery, each loss by its name,
     ``work_W`` on the joints, ``stored_W``. ``undershoot_bar_rms`` and ``_max`` are the depth below WANTED of the supply
-    pressure, ``undershoot_share`` the share of the time below it by more than 1 bar; ``shortfall_bar_*``
-    the depth below the pressure that the planned motion needs at that time. ``over_current_share`` is that of the time above LIMIT. ``force_error_rms`` [N] is that of
-    all cylinders, ``force_error_share`` relative to the demand's. ``cost_of_transport`` is the battery's energy over
-    weight and way.
+    pressure, ``undershoot_share`` the share of the time below it by more than 1 bar; ``shortfall_bar_*`` the depth
+    below the pressure that the planned motion needs at that time; ``over_current_share`` that of the time above LIMIT.
+    ``force_error_rms`` [N] is that of all cylinders, ``force_error_share`` relative to the demand's.
+    ``cost_of_transport`` is the battery's energy over weight and way.
     """
     task = TASKS[round(solution.final("task"))]
     told = {
