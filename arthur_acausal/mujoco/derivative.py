@@ -11,7 +11,7 @@ import numpy as np
 from arthur_acausal.mujoco.dynamics import Dynamics, FloatArray
 from arthur_acausal.mujoco.engine import mujoco
 
-MAX_AGE = 25  # uses of one derivative
+MAX_AGE = 100  # uses of one derivative, where the same contacts act
 FORWARD = ((1,), (1.0,))
 CENTRAL = ((-2, -1, 1, 2), (1 / 12, -2 / 3, 2 / 3, -1 / 12))  # fourth order
 STEP = 1e-6  # of positions [m, rad] and speeds, for forward differences

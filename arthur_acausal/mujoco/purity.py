@@ -19,7 +19,6 @@ FORCED: dict[str, str] = {
     "solver": "Newton: the only one that reaches the tolerance",
     "tolerance": f"{TOLERANCE:g}: error of the accelerations far below that of the integration",
     "iterations": f"{ITERATIONS}: enough for the tolerance",
-    "jacobian": "dense: the same order of operations, and so the same bits, in every state",
     "warmstart": "disabled: accelerations would depend on the call before",
     "refsafe": "disabled: it ties the stiffness of contacts to opt.timestep",
     "island": "disabled: the order of operations would depend on what touches what",
@@ -43,7 +42,6 @@ def pure(model: MjModel, name: str) -> MjModel:
     option.integrator = mujoco().mjtIntegrator.mjINT_EULER
     option.solver = mujoco().mjtSolver.mjSOL_NEWTON
     option.tolerance, option.iterations = TOLERANCE, ITERATIONS
-    option.jacobian = mujoco().mjtJacobian.mjJAC_DENSE
     for bit in (disable.mjDSBL_WARMSTART, disable.mjDSBL_REFSAFE, getattr(disable, "mjDSBL_ISLAND", 0)):
         option.disableflags |= int(bit)
     for bit in (enable.mjENBL_ENERGY, enable.mjENBL_FWDINV):

@@ -36,8 +36,10 @@ def value(function: BodyFunction, inputs: FloatArray) -> FloatArray:
     return outputs
 
 
-def test_accelerations_have_the_same_bits_after_a_thousand_other_calls() -> None:
-    function = function_of(QUADRUPED, ("back",))
+@pytest.mark.parametrize("jacobian", ["dense", "sparse"])
+def test_accelerations_have_the_same_bits_after_a_thousand_other_calls(jacobian: str) -> None:
+    option = f'<option jacobian="{jacobian}"/></mujoco>'
+    function = function_of(QUADRUPED.replace("</mujoco>", option), ("back",))
     states = [state_of(function, seed) for seed in range(10)]
     first = [value(function, s) for s in states]
     assert function.dynamics.data.ncon >= 0
