@@ -41,6 +41,8 @@ from arthur_acausal.models.arthur.pump_control import (
     ConstantSpeed,
     FlowFeedForward,
     ForesightFeedForward,
+    GivenSpeed,
+    GivenVoltage,
     PressureControl,
     PumpControl,
 )
@@ -70,12 +72,16 @@ PumpLaw = Literal[
     "predictive",
     "predictive pressure",
     "clairvoyant",
+    "given speed",
+    "given voltage",
 ]
 
 CONTROLS: dict[str, type[PumpControl]] = {
     "pressure": PressureControl,
     "feed-forward": FlowFeedForward,
     "foresight": ForesightFeedForward,
+    "given speed": GivenSpeed,
+    "given voltage": GivenVoltage,
 }
 """Controllers that need nothing but the data of the unit."""
 
@@ -90,8 +96,9 @@ class PowerUnit(Component):
 
     Structural parameters: ``law`` of the pump's control, see ConstantSpeed, PressureControl, FlowFeedForward,
     ForesightFeedForward and PredictiveControl; "predictive pressure" decides about the pressure, too, "clairvoyant" has
-    the demand ``known`` from another run in place of a plan. ``accumulator``: False leaves it out; ``audit``:
-    ``energy_*.E`` [J] integrate the powers of POWERS. ``model_error`` [1]: see SupplyModel.
+    the demand ``known`` from another run in place of a plan; "given speed" and "given voltage" come from outside,
+    ``w_command`` [rad/s] and ``V_command`` [V], and begin at ``P_des``. ``accumulator``: False leaves it out;
+    ``audit``: ``energy_*.E`` [J] integrate the powers of POWERS. ``model_error`` [1]: see SupplyModel.
     """
 
     law: PumpLaw = "feed-forward"
@@ -102,6 +109,8 @@ class PowerUnit(Component):
     tank = HydraulicPort()
     fluid: Fluid = Fluid()
     q_command: Real = real_input("m^3/s", default=0.0, nominal=1e-4, description="flow that is asked for")
+    w_command: Real = real_input("rad/s", default=100.0, nominal=500.0, display="rpm")
+    V_command: Real = real_input("V", default=10.0, nominal=40.0)
     Q_req: Real = parameter("m^3/s", default=1.25 * GPM, min=0.0, display="gpm", description="pump sizing")
     N_0: Real = parameter("rad/s", default=5000 * 2 * pi / 60, min=0.0, display="rpm", description="assumed")
     eta_v: Real = parameter("1", default=0.85, min=0.0, max=1.0, description="Table 6")
@@ -203,6 +212,10 @@ class PowerUnit(Component):
         yield connect(self.speed.w, control.w)
         yield connect(self.pressure.p, control.p)
         yield connect(self.q_command, control.q_command)
+        if isinstance(control, GivenSpeed):
+            yield connect(self.w_command, control.command)
+        if isinstance(control, GivenVoltage):
+            yield connect(self.V_command, control.command)
         yield connect(control.V, self.drive.V_command)
         yield connect(self.drive.V, self.motor.V)
         yield connect(self.motor.P_el, self.drive.P_el)
@@ -213,7 +226,10 @@ class PowerUnit(Component):
 
     def initial_equations(self) -> Equations:
         yield der(self.motor.w) == 0
-        yield der(self.manifold.p) == 0
+        if isinstance(self.control, GivenSpeed | GivenVoltage):  # that need not be in balance with the load
+            yield self.manifold.p == self.P_des
+        else:
+            yield der(self.manifold.p) == 0
         yield der(self.reservoir.v) == 0
         if isinstance(self.control, PressureControl):
             yield der(self.control.x) == 0

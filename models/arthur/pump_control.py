@@ -82,6 +82,25 @@ class ConstantSpeed(SpeedControl):
         yield self.w_d == self.w_0
 
 
+class GivenSpeed(SpeedControl):
+    """The speed is asked for from outside: ``command`` [rad/s], within its limits."""
+
+    command: Real = real_input("rad/s", default=100.0, nominal=500.0, display="rpm")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield "limits", self.w_d == fmin(fmax(self.command, self.w_min), self.w_max)
+
+
+class GivenVoltage(PumpControl):
+    """The voltage is asked for from outside: ``command`` [V]."""
+
+    command: Real = real_input("V", default=10.0, nominal=40.0)
+
+    def equations(self) -> Equations:
+        yield self.V == self.command
+
+
 class PressureControl(SpeedControl):
     """PI regulation of the supply pressure to ``P_des`` [Pa]: w_d = k_p e + x, x' = k_p e/T_i, limited.
 

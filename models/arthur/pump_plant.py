@@ -79,7 +79,8 @@ class PumpPlant(Component):
     """Battery, motor, pump, accumulator and their controller, and a load that takes a recorded demand.
 
     Inputs, from ``inputs_of``: ``q`` [m^3/s] the flow that is taken, ``q_command`` [m^3/s] the part of it that is
-    asked for by the actuators' controllers. What was planned, the controller is told every ``every`` [s] as recorded.
+    asked for by the actuators' controllers; ``w_command`` [rad/s] or ``V_command`` [V] where the pump is driven from
+    outside. What was planned, the controller is told every ``every`` [s] as recorded.
 
     Structural parameters: ``demand``; ``law``, ``accumulator`` and ``audit``, see PowerUnit.
     """
@@ -90,6 +91,8 @@ class PumpPlant(Component):
     audit: bool = True
     q: Real = real_input("m^3/s", default=0.0, nominal=1e-4, display="L/min")
     q_command: Real = real_input("m^3/s", default=0.0, nominal=1e-4, display="L/min")
+    w_command: Real = real_input("rad/s", default=100.0, nominal=500.0, display="rpm")
+    V_command: Real = real_input("V", default=10.0, nominal=40.0)
     every: Real = parameter("s", default=0.01, min=0.0)
     Q_req: Real = parameter("m^3/s", default=1.25 * GPM, min=0.0, display="gpm", description="pump sizing")
     p_relief: Real = parameter("Pa", default=140e5, min=0.0, display="bar", description="cracking pressure")
@@ -119,6 +122,8 @@ class PumpPlant(Component):
         yield connect(unit.tank, load.port_b)
         yield connect(self.q, load.demand)
         yield connect(self.q_command, unit.q_command)
+        yield connect(self.w_command, unit.w_command)
+        yield connect(self.V_command, unit.V_command)
         ahead = [point.q for point in plan] + [point.p for point in plan]
         yield sampled(Preview(self.demand), period=self.every, outputs=ahead)
         if self.audit:

@@ -149,13 +149,18 @@ class Quadruped(Hydraulics):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        for name, actuator, set_point in zip(JOINT_NAMES, self.actuators, self.set_points, strict=True):
+        for name, actuator in zip(JOINT_NAMES, self.actuators, strict=True):
             yield connect(actuator.joint, getattr(self.body, name))
-            yield connect(set_point.y, actuator.F_d)
         if self.push:
             yield connect(self.shove.y, self.body.imu_f_y)
-        yield sampled(self.control, period=self.period, inputs=self.sensors(), outputs=self.asked())
+        yield from self.commanded()
         yield from self._watch()
+
+    def commanded(self) -> Equations:
+        """Yield what gives each cylinder the force that it is asked for: the locomotion controller."""
+        for actuator, set_point in zip(self.actuators, self.set_points, strict=True):
+            yield connect(set_point.y, actuator.F_d)
+        yield sampled(self.control, period=self.period, inputs=self.sensors(), outputs=self.asked())
 
     def _watch(self) -> Equations:
         """Count what goes wrong; where it falls the run ends."""

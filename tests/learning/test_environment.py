@@ -104,10 +104,8 @@ def test_a_step_is_that_of_the_closed_form() -> None:
 def test_it_terminates_where_the_model_ends_the_run() -> None:
     env = LagEnv(top=1.0)
     env.reset(seed=0)
-    for _ in range(10):
-        *_, terminated, truncated, info = env.step(np.ones(1, np.float32))
-        if terminated:
-            break
+    results = (env.step(np.ones(1, np.float32)) for _ in range(10))
+    *_, terminated, truncated, info = next(result for result in results if result[2])
     assert (terminated, truncated, info["ended"]) == (True, False, "over the top")
 
 

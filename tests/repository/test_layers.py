@@ -184,7 +184,10 @@ def test_graph_algorithms_see_plain_integers() -> None:
     [
         ("components", ("arthur_acausal.components",)),
         ("arthur_acausal/mujoco", ("arthur_acausal.components", "arthur_acausal.mujoco")),
-        ("models", ("arthur_acausal.components", "arthur_acausal.models", "arthur_acausal.mujoco")),
+        (
+            "models",
+            tuple(f"arthur_acausal.{part}" for part in ("components", "learning", "models", "mujoco")),
+        ),
     ],
 )
 def test_the_library_uses_public_names_only(folder: str, packages: tuple[str, ...]) -> None:

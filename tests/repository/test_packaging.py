@@ -120,7 +120,7 @@ def _canonical(name: str) -> str:
 def test_wheels_hold_every_module_once(built: dict[str, Path]) -> None:
     expected = {"arthur_acausal/py.typed"}
     for inside, top in SHIPPED.items():
-        for pattern in ("*.py", "*.csv", "*.c", "*.html"):
+        for pattern in ("*.py", "*.csv", "*.c", "*.html", "*.json", "*.npz"):
             for path in (ROOT / top).rglob(pattern):
                 parts = path.relative_to(ROOT / top).parts
                 if inside or parts[0] not in SHIPPED:
