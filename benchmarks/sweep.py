@@ -6,6 +6,8 @@
   core, beside CasADi's ``idas`` on equations flattened by hand (final values only) and rumoca.
 - The powertrain, 256 Sobol samples of 8 parameters, 1 s each, with one worker and with two.
 - The quadruped, 16 runs of 2 s of trot.
+- 10,000 runs of a small model: memory of the process that keeps them, beside that for 1,000; how long opening the
+  store and `arthur report` take.
 - Sweeps whose parent is killed (SIGKILL) at a random moment and resumed, compared with an undisturbed one.
 """
 
@@ -23,7 +25,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from benchmarks.measure import fresh_json, load_average, parser, show
+from benchmarks.measure import fresh_json, fresh_process, load_average, parser, peak_mb, show
 from benchmarks.rumoca_run import missing
 
 MOTOR = "arthur_acausal.models.examples.dc_motor:DCMotor"
@@ -46,8 +48,14 @@ def main() -> None:
     command_line = parser(__doc__.partition("\n")[0] if __doc__ else "")
     command_line.add_argument("--kills", type=int, default=20, metavar="N", help="sweeps that are killed")
     command_line.add_argument("--quick", action="store_true", help="fewer runs of the large models")
-    command_line.add_argument("--part", help="measure one part here and print it (used by itself)")
+    command_line.add_argument("--part", choices=PARTS, help="measure one part here and print it")
+    command_line.add_argument(
+        "--fill", nargs=2, metavar=("RUNS", "DIR"), help="of many runs (used by itself)"
+    )
     given = command_line.parse_args()
+    if given.fill is not None:
+        print(json.dumps(fill(int(given.fill[0]), Path(given.fill[1]))))
+        return
     if given.part is not None:
         print(json.dumps(PARTS[given.part](given.quick)))
         return
@@ -183,7 +191,7 @@ def quadruped(quick: bool) -> dict[str, Any]:
         begin = time.perf_counter()
         found: Any = sweep(
             "arthur.quadruped",
-            vary={"relief.p_c": f"120bar:150bar:{runs}"},
+            vary={"unit.relief.p_c": f"120bar:150bar:{runs}"},
             stop_time=2.0,
             folder=Path(folder) / "d",
             progress=False,
@@ -192,6 +200,47 @@ def quadruped(quick: bool) -> dict[str, Any]:
         wall = time.perf_counter() - begin
     return {"runs_per_min": 60.0 * runs / wall, "failed": int((found["status"] != "ok").sum())}
 
+
+def many(quick: bool) -> dict[str, Any]:
+    """Memory of the parent for a few and for many runs; opening and reporting the many."""
+    found: dict[str, Any] = {"peak_rss_mb": {}}
+    with tempfile.TemporaryDirectory() as name:
+        for runs in (100, 1000) if quick else (1000, 10_000):
+            folder = Path(name) / str(runs)
+            filled = fresh_json(["-m", "benchmarks.sweep", "--fill", str(runs), str(folder)])
+            found["peak_rss_mb"][str(runs)] = filled["peak_rss_mb"]
+        opened = fresh_json(["-c", OPENED, str(folder)])
+        page = Path(name) / "report.html"
+        begin = time.perf_counter()
+        command = "from arthur_acausal.cli import main; main()"
+        fresh_process(["-c", command, "report", str(folder), "-o", str(page)])
+        found |= opened | {"report_s": time.perf_counter() - begin, "report_mb": page.stat().st_size / 1e6}
+    return found
+
+
+def fill(runs: int, folder: Path) -> dict[str, float]:
+    """Run so many jacks, and return what this process took of memory at most."""
+    from arthur_acausal.sweep import sweep
+
+    vary = {"load.m": "uniform(100, 1000)", "orifice.area": "loguniform(1e-6, 1e-5)"}
+    sampled = {"method": "random", "samples": runs, "output": {"interval": 1e-3}}
+    sweep("examples.jack", vary=vary, stop_time=0.02, folder=folder, progress=False, **sampled)  # type: ignore[arg-type]
+    return {"peak_rss_mb": peak_mb()}
+
+
+# xarray and what it looks for take a second to import: that is told apart from opening.
+OPENED = """
+import contextlib, json, sys, time
+begin = time.perf_counter()
+import pandas, xarray, zarr
+with contextlib.suppress(ImportError):
+    import dask.array
+import arthur_acausal.sweep
+imported = time.perf_counter()
+found = arthur_acausal.sweep.open(sys.argv[1])
+found.table, found.dataset
+print(json.dumps({"import_s": imported - begin, "open_s": time.perf_counter() - imported}))
+"""
 
 KILLED = """
 import sys
@@ -246,7 +295,7 @@ def kills(tries: int) -> dict[str, int]:
     return counted
 
 
-PARTS = {"dc_motor": dc_motor, "powertrain": powertrain, "quadruped": quadruped}
+PARTS = {"dc_motor": dc_motor, "powertrain": powertrain, "quadruped": quadruped, "many": many}
 
 
 def report(found: dict[str, Any]) -> None:
@@ -274,6 +323,12 @@ def report(found: dict[str, Any]) -> None:
     if walk["runs_per_min"] is not None:
         rows.append(["quadruped, 2 s of trot", f"{walk['runs_per_min']:.1f}", ""])
     show("Large models", ["", "runs a minute", "CPU s a run"], rows)
+    lots = found["many"]
+    rows = [
+        [f"memory of the parent, {runs} runs", f"{size:.0f} MB"] for runs, size in lots["peak_rss_mb"].items()
+    ]
+    rows += [["opening", f"{lots['open_s']:.2f} s"], ["arthur report", f"{lots['report_s']:.1f} s"]]
+    show("Many runs", ["", ""], rows)
     show("Killed and resumed", list(killed), [[str(v) for v in killed.values()]])
 
 

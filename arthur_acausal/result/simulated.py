@@ -83,7 +83,8 @@ def describe(dae: CompiledDAE) -> dict[str, Variable]:
     for path, source, unit, display, description in rows:
         kind, state = kind_of(dae, path, source)
         sign = float(source.sign) if state else 1.0
-        found[path] = Variable(path, unit, kind, description, display or "", state, sign)
+        refined = kind == "eliminated" and bool(recovery.interpolated[source.index])
+        found[path] = Variable(path, unit, kind, description, display or "", state, sign, refined)
     return found
 
 

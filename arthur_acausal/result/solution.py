@@ -143,10 +143,14 @@ class Solution:
 
     def _companions(self, paths: list[str]) -> list[str]:
         """Return what costs nothing beside these: one eliminated variable is computed together with all."""
-        if not any(self.variables[path].kind == "eliminated" for path in paths):
+        eliminated = [v for v in map(self.variables.__getitem__, paths) if v.kind == "eliminated"]
+        if not eliminated:
             return []
+        refined = any(v.refined for v in eliminated)
         others = [
-            v.path for v in self.variables.values() if v.kind == "eliminated" and v.path not in self._columns
+            v.path
+            for v in self.variables.values()
+            if v.kind == "eliminated" and v.path not in self._columns and refined >= v.refined
         ]
         return others if len(others) * self.t.size <= AT_ONCE else []
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 Kind = Literal["state", "algebraic", "alias", "discrete", "parameter", "constant", "input", "eliminated"]
@@ -24,6 +24,7 @@ class Variable:
     display : the unit that people like to see it in ("bar"); empty where `unit` serves.
     state : the state whose value it is up to sign, itself for a state; empty for all others.
     sign : +1.0 or -1.0, so that value = sign * state.
+    refined : whether it takes unknowns that are solved for at each output, which costs more than all else.
     """
 
     path: str
@@ -33,6 +34,7 @@ class Variable:
     display: str = ""
     state: str = ""
     sign: float = 1.0
+    refined: bool = field(default=False, compare=False)  # of a computed solution only
 
     @property
     def fixed_in_time(self) -> bool:
