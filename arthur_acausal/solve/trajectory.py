@@ -80,10 +80,9 @@ class Recorder:
         """t, y, yp, u, z, m of all rows."""
         pieces = self._pieces
         t, y, yp = (np.concatenate([piece[k] for piece in pieces]) for k in range(3))
-        u, z, m = (
-            np.concatenate(
-                [np.broadcast_to(piece[k], (len(piece[0]), piece[k].shape[-1])) for piece in pieces]
-            )
-            for k in (3, 4, 5)
+        rows = [len(piece[0]) for piece in pieces]
+        u = np.concatenate(
+            [np.broadcast_to(p[3], (k, p[3].shape[-1])) for p, k in zip(pieces, rows, strict=True)]
         )
+        z, m = (np.repeat([piece[k] for piece in pieces], rows, axis=0) for k in (4, 5))
         return t, y, yp, u, z, m
