@@ -9,6 +9,8 @@ import numpy as np
 
 HALF = 0.5
 """Where the two halves of the vertical motion meet, as a share of the swing."""
+MATCHED = 0.9
+"""From this share of the swing on a foot goes with the ground: one that lands a little early does not slide."""
 
 
 def spline_coefficients(p_0: ca.SX, p_T: ca.SX, v_0: ca.SX, v_T: ca.SX, T: float) -> ca.SX:
@@ -25,19 +27,26 @@ def swing_position(
     """Return the desired position of a foot [m] at the swing state S, as an expression.
 
     The report prints the powers of S lost, and both halves in S: they are cubics in S and in S - 1/2. The apex is
-    start + height, the end velocity that of the ground. Beyond S = 1 the foot goes on with it.
+    start + height, the end velocity that of the ground. The horizontal motion has it from MATCHED on (retraction of
+    the swing leg: Seyfarth, Geyer and Herr 2003). Beyond S = 1 the foot goes on with it.
 
     Parameters
     ----------
     S : 0..1 over the swing. T : T_sw [s]. start, end : positions [m]. v_0, v_1 : velocities there [m/s].
     height : H_sw [m].
     """
-    t = ca.fmin(S, 1)
-    places = [_cubic(spline_coefficients(start[i], end[i], T * v_0[i], T * v_1[i], 1.0), t) for i in (0, 1)]
+    t, early = ca.fmin(S, 1), ca.fmin(S, MATCHED) / MATCHED
+    there = end - (1 - MATCHED) * T * v_1
+    ahead = MATCHED * T
+    places = [
+        _cubic(spline_coefficients(start[i], there[i], ahead * v_0[i], ahead * v_1[i], 1.0), early)
+        + ca.fmax(S - MATCHED, 0) * T * v_1[i]
+        for i in (0, 1)
+    ]
     apex = start[2] + height
     up = _cubic(spline_coefficients(start[2], apex, T * v_0[2], ca.SX(0), HALF), t)
     down = _cubic(spline_coefficients(apex, end[2], ca.SX(0), T * v_1[2], HALF), t - HALF)
-    return ca.vertcat(*places, ca.if_else(t <= HALF, up, down)) + ca.fmax(S - 1, 0) * T * v_1
+    return ca.vertcat(*places, ca.if_else(t <= HALF, up, down) + ca.fmax(S - 1, 0) * T * v_1[2])
 
 
 @cache
