@@ -3,163 +3,31 @@
 Each runs through hydraulics, rigid bodies and controller in one system of equations. A seed gives the sensors' noise
 and displaces the joints at the start by up to 0.02 rad. What is required is that of `benchmarks.locomotion`, and that
 the forces follow their demand, as the actuators receive it, within 10 % rms in an undisturbed trot.
+
+The first seed goes through all scenarios, then the second. With ``--log`` each run is kept as it ends, and a run that
+is kept, by another call before, is not done again: the list may be cut off and gone on with.
 """
 
 from __future__ import annotations
 
 import json
 import sys
-import time
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import asdict, fields, replace
+from multiprocessing import get_context
+from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from arthur_acausal import Solution, SolverOptions, translate
-from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, Dimensions
-from arthur_acausal.models.arthur.figures import headings
-from arthur_acausal.models.arthur.locomotion.commands import Command
-from arthur_acausal.models.arthur.quadruped import Quadruped
-from arthur_acausal.models.arthur.trouble import counts
-from arthur_acausal.result.simulated import ComputedValues
-from benchmarks.locomotion import CALM, CRUISING, SCENARIOS, Scenario
+from benchmarks.coupled import Walked, run
+from benchmarks.locomotion import CALM, SCENARIOS, Scenario
 from benchmarks.measure import parser, show
 
-LIMITS = {"speed_error": 0.1, "max_roll_deg": 5.0, "max_pitch_deg": 5.0, "slip_share": 0.05, "v_y": 0.1}
-TRACKING = 0.1
-DISPLACED = 0.02
-"""Most that a joint is displaced at the start [rad]."""
 QUICK, QUICK_PUSH = 3.0, 1.2
 """With --quick: duration, and beginning of a push [s]."""
-POINTS = 200
-"""Times a second at which the figures are taken."""
 
-
-@dataclass(frozen=True, slots=True)
-class Walked:
-    """What a run gave.
-
-    Attributes
-    ----------
-    seconds : simulated. message : why it ended early. speed_error : of the mean speed or yaw rate after 1.5 s.
-    v_y : largest sideways speed from 2 s after a push on [m/s]. closure : of the energy, share of the input.
-    tracked : whether the forces have to follow their demand: in an undisturbed trot. trouble : counts.
-    cpu_s_per_s : of all, the controller included.
-    """
-
-    scenario: str
-    seed: int
-    seconds: float
-    message: str
-    fell: bool
-    mean_speed_m_s: float
-    speed_error: float | None
-    max_roll_deg: float
-    max_pitch_deg: float
-    slip_share: float
-    v_y: float | None
-    force_tracking_rms: float
-    closure: float
-    cost_of_transport: float | None
-    trouble: dict[str, int]
-    cpu_s_per_s: float
-    required: bool
-    tracked: bool
-
-    @property
-    def met(self) -> bool:
-        """Whether the figures meet what is required."""
-        found = asdict(self)
-        followed = not self.tracked or self.force_tracking_rms <= TRACKING
-        within = all(found[name] is None or found[name] <= most for name, most in LIMITS.items())
-        return not self.fell and not self.message and within and followed
-
-
-def robot(scenario: Scenario, seed: int) -> Quadruped:
-    """Return the robot that does what a scenario says."""
-    command, push = scenario.command, scenario.push
-    shove = (
-        {} if push is None else {"push": push.force[1], "t_push": push.start, "push_duration": push.duration}
-    )
-    return Quadruped(
-        gait=command.gait,
-        v_x=command.v_x,
-        v_y=command.v_y,
-        yaw_rate=command.yaw_rate,
-        swing_height=command.swing_height,
-        terrain=scenario.terrain,
-        payload=scenario.payload,
-        seed=seed,
-        audit=True,
-        **shove,  # type: ignore[arg-type]
-    )
-
-
-def run(scenario: Scenario, seed: int, rtol: float) -> Walked:
-    """Run a scenario with one seed of noise and start."""
-    model = translate(robot(scenario, seed))
-    pose = Dimensions().stand * 4 + np.random.default_rng([seed, 1]).uniform(-DISPLACED, DISPLACED, 12)
-    start = {f"body.{joint}_phi": float(angle) for joint, angle in zip(JOINT_NAMES, pose, strict=True)}
-    options = SolverOptions(rtol=rtol, intervals=1)  # each control tick gives two rows
-    begin = time.process_time()
-    solution = model.simulate(scenario.duration, start=start, options=options)
-    spent = time.process_time() - begin
-    return walked(thinned(solution, POINTS), model.model, scenario, seed, spent)
-
-
-def thinned(solution: Solution, points: int) -> Solution:
-    """Return a solution of so many rows a second: what is not a state costs much to compute for each row."""
-    (piece,) = solution.pieces
-    x = piece.trajectory
-    wanted = np.arange(0.0, x.t[-1], 1.0 / points)
-    rows = np.append(np.searchsorted(x.t, wanted, side="right") - 1, x.t.size - 1)
-    columns = {name: getattr(x, name)[rows] for name in ("t", "y", "yp", "u", "z", "m")}
-    return Solution(ComputedValues(piece.dae, replace(x, **columns)), solution.run)
-
-
-def walked(solution: Solution, model: Any, scenario: Scenario, seed: int, spent: float) -> Walked:
-    """Return the figures of a run."""
-    told = model.figures(solution)
-    figures, end = told["locomotion"], float(solution.t[-1])
-    names = ("fell", "mean_speed_m_s", "max_roll_deg", "max_pitch_deg", "slip_share", "force_tracking_rms")
-    level = headings(solution)
-    return Walked(
-        scenario=scenario.name,
-        seed=seed,
-        seconds=end,
-        message=solution.run.message,
-        speed_error=_speed_error(solution, level, scenario),
-        v_y=_sideways(solution, level, scenario),
-        closure=solution.energy().closure,
-        cost_of_transport=told["cost_of_transport"],
-        trouble=counts(solution),
-        cpu_s_per_s=spent / end,
-        required=scenario.required,
-        tracked=scenario.command == Command(v_x=0.5) and scenario.push is None and not scenario.payload,
-        **{name: figures[name] for name in names},
-    )
-
-
-def _speed_error(solution: Solution, level: Any, scenario: Scenario) -> float | None:
-    """Return the relative error of the mean velocity in the direction commanded, or of the yaw rate."""
-    command, cruising = scenario.command, solution.t >= CRUISING
-    wanted = np.array([command.v_x, command.v_y])
-    speed = float(np.linalg.norm(wanted))
-    if not cruising.any() or not (speed or command.yaw_rate):
-        return None
-    t = solution.t[cruising]
-    signal, target = (
-        (level @ wanted / speed, speed) if speed else (solution["body.base_w_z"], command.yaw_rate)
-    )
-    mean = np.trapezoid(signal[cruising], t) / np.ptp(t)
-    return float(abs(mean / target - 1.0))
-
-
-def _sideways(solution: Solution, level: Any, scenario: Scenario) -> float | None:
-    if scenario.push is None:
-        return None
-    calm = solution.t >= scenario.push.start + scenario.push.duration + CALM
-    return float(np.abs(level[calm, 1]).max(initial=0.0)) if calm.any() else np.inf
+Job = tuple[Scenario, int, float]
+"""A scenario, a seed, rtol."""
 
 
 def shortened(scenario: Scenario, seconds: float | None, quick: bool) -> Scenario:
@@ -174,6 +42,66 @@ def shortened(scenario: Scenario, seconds: float | None, quick: bool) -> Scenari
     return replace(scenario, push=push, duration=max(seconds, push.start + push.duration + CALM + 0.3))
 
 
+def key(job: Job) -> list[Any]:
+    """Return by what a kept run is known."""
+    scenario, seed, rtol = job
+    return [scenario.name, scenario.duration, seed, rtol]
+
+
+def kept(log: Path | None) -> list[tuple[list[Any], Walked]]:
+    """Return the runs of a log, with their keys; a line that was cut off is left out."""
+    if log is None or not log.exists():
+        return []
+    names = {field.name for field in fields(Walked)}
+    found = []
+    for line in log.read_text().splitlines():
+        try:
+            row = json.loads(line)
+        except ValueError:
+            continue
+        found.append((row["key"], Walked(**{name: row[name] for name in names})))
+    return found
+
+
+def ended(jobs: Sequence[Job], workers: int) -> Iterator[tuple[Job, Walked]]:
+    """Yield the runs as they end."""
+    if workers == 1:
+        yield from ((job, run(*job)) for job in jobs)
+        return
+    with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
+        waiting = {pool.submit(run, *job): job for job in jobs}
+        for done in as_completed(waiting):
+            yield waiting[done], done.result()
+
+
+def measure(jobs: Sequence[Job], workers: int, log: Path | None) -> list[Walked]:
+    """Return all runs in the order of the jobs; each is told, and kept, as it ends."""
+    found = {json.dumps(k): row for k, row in kept(log)}
+    for job, row in ended([job for job in jobs if json.dumps(key(job)) not in found], workers):
+        found[json.dumps(key(job))] = row
+        print(row, file=sys.stderr, flush=True)
+        if log is not None:
+            with log.open("a") as file:  # the line before may have been cut off
+                file.write("\n" + json.dumps({"key": key(job)} | asdict(row)))
+    return [found[json.dumps(key(job))] for job in jobs]
+
+
+def worst(runs: Sequence[Walked]) -> dict[str, Any]:
+    """Return the worst figures of a scenario's runs, and how many of them met what is required."""
+    rows = [asdict(row) for row in runs]
+    found: dict[str, Any] = {"runs": len(runs), "met": sum(row.met for row in runs)}
+    found["falls"] = sum(row.fell for row in runs)
+    found["seconds"] = min(row.seconds for row in runs)
+    for name in ("speed_error", "max_roll_deg", "max_pitch_deg", "slip_share", "v_y", "force_tracking_rms"):
+        values = [row[name] for row in rows if row[name] is not None]
+        found[name] = max(values) if values else None
+    found["closure"] = max(abs(row.closure) for row in runs)
+    found["cost_of_transport"] = max((r.cost_of_transport for r in runs if r.cost_of_transport), default=None)
+    found["trouble"] = {name: max(row.trouble.get(name, 0) for row in runs) for name in runs[0].trouble}
+    found["cpu_s_per_s"] = max(row.cpu_s_per_s for row in runs)
+    return found
+
+
 def main() -> None:
     """Measure and print."""
     command_line = parser("The whole robot, battery to ground: gaits and disturbances in the coupled model.")
@@ -181,60 +109,53 @@ def main() -> None:
     command_line.add_argument("--seconds", type=float, help="longest duration of each scenario")
     command_line.add_argument("--seeds", type=int, default=1, help="of noise and start, 1 by default")
     command_line.add_argument("--rtol", type=float, default=1e-4)
-    command_line.add_argument("--only", default="", metavar="TEXT", help="scenarios whose name contains this")
+    command_line.add_argument("--workers", type=int, default=1, help="processes")
+    command_line.add_argument("--log", type=Path, metavar="FILE", help="keep runs in it, do none again")
+    command_line.add_argument(
+        "--only", nargs="+", default=[""], metavar="TEXT", help="scenarios whose name contains one of these"
+    )
     arguments = command_line.parse_args()
-    chosen = [s for s in SCENARIOS if not s.lag and arguments.only in s.name]
-    rows = []
-    for scenario in (shortened(s, arguments.seconds, arguments.quick) for s in chosen):
-        for seed in range(arguments.seeds):
-            rows.append(run(scenario, seed, arguments.rtol))
-            print(rows[-1], file=sys.stderr, flush=True)  # a long run is not lost where it is cut off
+    chosen = [s for s in SCENARIOS if not s.lag and any(text in s.name for text in arguments.only)]
+    chosen = [shortened(scenario, arguments.seconds, arguments.quick) for scenario in chosen]
+    jobs = [(scenario, seed, arguments.rtol) for seed in range(arguments.seeds) for scenario in chosen]
+    rows = measure(jobs, arguments.workers, arguments.log)
     if arguments.json:
         found = [asdict(row) | {"met": row.met} for row in rows]
         print(json.dumps({"rtol": arguments.rtol, "seeds": arguments.seeds, "runs": found}))
     else:
-        show_all(rows, arguments.rtol)
+        show_all([[row for row in rows if row.scenario == s.name] for s in chosen], arguments.rtol)
 
 
-def show_all(rows: list[Walked], rtol: float) -> None:
-    """Print the figures as a table."""
+def show_all(groups: Sequence[Sequence[Walked]], rtol: float) -> None:
+    """Print the worst figures of each scenario as a table."""
 
     def text(form: str, value: float | None, scale: float = 1.0) -> str:
         return "" if value is None else form.format(scale * value)
 
-    table = [
-        [
-            row.scenario if row.seed == 0 else f"  seed {row.seed}",
-            f"{row.seconds:.1f}" + (" fell" if row.fell else ""),
-            text("{:.1f}", row.speed_error, 100.0),
-            f"{row.max_roll_deg:.1f} / {row.max_pitch_deg:.1f}",
-            f"{100.0 * row.slip_share:.1f}",
-            text("{:.3f}", row.v_y),
-            f"{100.0 * row.force_tracking_rms:.1f}",
-            f"{row.closure:.0e}",
-            text("{:.1f}", row.cost_of_transport),
-            " ".join(str(n) for n in row.trouble.values()),
-            f"{row.cpu_s_per_s:.1f}",
-            "yes" if row.met else "NO" if row.required else "no",
-        ]
-        for row in rows
-    ]
-    heads = [
-        "s",
-        "speed %",
-        "roll/pitch",
-        "slip %",
-        "v_y",
-        "force %",
-        "closure",
-        "CoT",
-        "trouble",
-        "CPU",
-        "met",
-    ]
+    table = []
+    for group in groups:
+        row = worst(group)
+        table.append(
+            [
+                group[0].scenario,
+                f"{row['seconds']:.1f}",
+                str(row["falls"]),
+                text("{:.1f}", row["speed_error"], 100.0),
+                f"{row['max_roll_deg']:.1f} / {row['max_pitch_deg']:.1f}",
+                f"{100.0 * row['slip_share']:.1f}",
+                text("{:.3f}", row["v_y"]),
+                f"{100.0 * row['force_tracking_rms']:.1f}",
+                f"{row['closure']:.0e}",
+                text("{:.1f}", row["cost_of_transport"]),
+                " ".join(str(n) for n in row["trouble"].values()),
+                f"{row['cpu_s_per_s']:.1f}",
+                f"{row['met']} of {row['runs']}" + ("" if group[0].required else " (told)"),
+            ]
+        )
+    heads = ["s", "fell", "speed %", "roll/pitch", "slip %", "v_y", "force %", "closure", "CoT", "trouble"]
     show(
-        f"The coupled model at rtol {rtol:g}; trouble: stops, cavitation, valves, bus voltage, motor current",
-        ["", *heads],
+        f"The worst of the seeds, rtol {rtol:g}; trouble: stops, cavitation, valves, bus voltage, motor current",
+        ["", *heads, "CPU", "met"],
         table,
     )
 
