@@ -15,7 +15,7 @@ from arthur_acausal.solve.callbacks import Monitor, Progress, Roots
 from arthur_acausal.solve.diagnosis import listed
 from arthur_acausal.solve.events import EventIteration
 from arthur_acausal.solve.failure import integration_failure, suspect, too_many_steps
-from arthur_acausal.solve.ida import Ida, Stretch, load_ida
+from arthur_acausal.solve.ida import ERROR_TEST_FAILED, Ida, Stretch, load_ida
 from arthur_acausal.solve.initialize import adopt, initialize
 from arthur_acausal.solve.inputs import Input, Inputs
 from arthur_acausal.solve.modes import Modes
@@ -35,6 +35,8 @@ RESOLUTION = 1e-12
 FIRST_STEP_ERROR = 1e-5
 FIRST_STEP_PART = 0.1  # the first step is no longer than this part of the way to the next known event,
 FIRST_STEP_LEAST = 1e-14  # and no shorter than this part of the time: it would be lost in rounding
+# Where y'' happens to be zero, that is far too long a step, and IDA gives up when it has cut it by so much.
+FIRST_STEP_CUT = 0.25**10
 
 
 class HybridRun:
@@ -196,7 +198,13 @@ class HybridRun:
             first_step = self._first_step(stop - float(times[0]))
             self._starts += 1
         y, yp = self._evaluator.y.copy(), self._evaluator.yp.copy()
-        return method(times, y, yp, first_step, store_steps)
+        stretch = method(times, y, yp, first_step, store_steps)
+        while stretch.flag == ERROR_TEST_FAILED and not stretch.t.size and first_step:
+            first_step *= FIRST_STEP_CUT
+            if first_step < FIRST_STEP_LEAST * (stop - float(times[0])):
+                break
+            stretch = method(times, y, yp, first_step, store_steps)
+        return stretch
 
     def _adapt_tolerances(self) -> None:
         """Those of this start; after a halt because of them they are set already."""

@@ -26,7 +26,7 @@ from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import DAE, Evaluator, FloatArray
 
 DENSE_UP_TO = 200  # unknowns; above, the sparse solver is faster
-ROOT_RETURN = 2
+ROOT_RETURN, ERROR_TEST_FAILED = 2, -3
 
 End = Literal["reached", "root", "failed", "halted"]
 

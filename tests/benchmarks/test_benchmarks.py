@@ -108,8 +108,8 @@ def test_components_and_hand_flattened_equations_agree() -> None:
     # Through the start, the opening of the relief valve (28 ms) and reversals, at a tight tolerance.
     equations = flat(trot, audit=True)
     grid = np.linspace(0.0, 0.1, 101)
-    by_hand = Idas(equations, grid, 1e-10).run()
     options = SolverOptions(rtol=1e-10, intervals=100)
+    by_hand = Idas(equations, grid, options.step_rtol).run()
     solution = translate(Demo()).simulate(0.1, options=options)
     off = error(states_on(grid, solution, equations.paths), by_hand, equations.paths)
     assert off.worst < 1e-6, off

@@ -186,6 +186,15 @@ def test_max_step_and_first_step_are_heeded() -> None:
     assert result.t[1] <= 1e-6
 
 
+def test_a_start_where_the_second_derivative_is_zero() -> None:
+    """A sine's first step, estimated where it is straight, is a million times too long at a tight tolerance."""
+    s = algebraic("s", 0.0)
+    wave = handmade([s], {"sine": s.s - 1e6 * casadi.sin(100.0 * np.pi * TIME)})
+    result = simulate(wave, stop_time=0.1, options=SolverOptions(rtol=1e-9, intervals=4))
+    assert result.y[:, 0] == pytest.approx(1e6 * np.sin(100.0 * np.pi * result.t), abs=1e-2)
+    assert result.statistics.rejected_steps > 10
+
+
 def test_parameters_and_start_values_are_set_for_one_run() -> None:
     k = casadi.SX.sym("k")
     x = state("x", 1.0, fixed=True)
