@@ -53,6 +53,12 @@ class Range:
             return exp(log(self.low) + share * log(self.high / self.low))
         return self.low + share * (self.high - self.low)
 
+    def place(self, value: float) -> float:
+        """Return the place of a value: the inverse of ``at``."""
+        if self.log:
+            return log(value / self.low) / log(self.high / self.low)
+        return (value - self.low) / (self.high - self.low)
+
 
 PI = {"omega_c": Range(10.0, 1e4, log=True), "T_i": Range(5e-3, 1.0, log=True)}
 FORWARD = PI | {"k_q": Range(0.6, 1.4)}
@@ -118,6 +124,11 @@ class Trial:
         power = np.trapezoid(solution["unit.motor.P_el"][counted], t) / (t[-1] - t[0])
         return Outcome(parameters, float(power), float(np.sqrt(np.trapezoid(short**2, t) / (t[-1] - t[0]))))
 
+    def defaults(self) -> dict[str, float]:
+        """Return the parameters that the controller has without tuning."""
+        values = self._plant.simulate(1e-3, inputs=self._inputs)
+        return {name: values.initial(f"unit.control.{name}") for name in RANGES[self.law]}
+
     def bound(self, solution: Solution) -> FloatArray:
         """Return the pressure that the controller shall keep [Pa], over the run."""
         kept = solution.initial("unit.control.P_des")
@@ -128,9 +139,13 @@ class Trial:
 
 
 def search(
-    evaluate: Callable[[dict[str, float]], Outcome], ranges: Mapping[str, Range], runs: int, seed: int = 0
+    evaluate: Callable[[dict[str, float]], Outcome],
+    ranges: Mapping[str, Range],
+    begin: Mapping[str, float],
+    runs: int,
+    seed: int = 0,
 ) -> list[Outcome]:
-    """Return ``runs`` outcomes: a Latin hypercube for a third of them, then steps about the best so far.
+    """Return ``runs`` outcomes: that of ``begin``, a Latin hypercube for a third, then steps about the best so far.
 
     The steps are normal, of a fifth of the ranges at first; they shrink by a tenth where one does not improve, and grow
     by half where it does, as in the (1+1) evolution strategy (Rechenberg 1973: one success in five keeps their size).
@@ -139,10 +154,11 @@ def search(
     first = max(1, runs // 3)
     order = np.array([random.permutation(first) for _ in ranges]).T
     outcomes: list[Outcome] = []
-    places = list((order + random.uniform(size=order.shape)) / first)
+    places = [np.array([r.place(begin[name]) for name, r in ranges.items()])]
+    places += list((order + random.uniform(size=order.shape)) / first)
     step, best = 0.2, 0
     for k in range(runs):
-        if k < first:
+        if k <= first:
             place = places[k]
         else:
             place = np.clip(places[best] + step * random.normal(size=len(ranges)), 0.0, 1.0)
@@ -150,7 +166,7 @@ def search(
         values = {name: r.at(float(x)) for (name, r), x in zip(ranges.items(), place, strict=True)}
         outcomes.append(evaluate(values))
         improved = outcomes[k].cost < outcomes[best].cost
-        if k >= first:
+        if k > first:
             step = min(step * 1.5, 0.3) if improved else step * 0.9
         best = k if improved else best
     return outcomes
@@ -189,19 +205,22 @@ def main() -> None:
     command_line.add_argument("--demand", type=Path, help="written by Demand.save, in place of the walk")
     options = command_line.parse_args()
     demand = recorded(options.seed) if options.demand is None else Demand.load(options.demand)
-    rows = []
-    for accumulator in (True, False):
-        for law, ranges in RANGES.items():
-            best = best_of(search(Trial(law, demand, accumulator), ranges, options.runs, options.seed))
-            print(
-                f"{law}, accumulator {accumulator}: {best.power:.1f} W, "
-                f"{best.shortfall / 1e5:.2f} bar short, cost {best.cost:.1f} W"
-            )
-            rows += [(law, accumulator, name, f"{value:.4g}") for name, value in best.parameters.items()]
     with options.output.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("pump", "accumulator", "parameter", "value"))
-        writer.writerows(rows)
+        for accumulator in (True, False):
+            for law, ranges in RANGES.items():
+                trial = Trial(law, demand, accumulator)
+                outcomes = search(trial, ranges, trial.defaults(), options.runs, options.seed)
+                first, best = outcomes[0], best_of(outcomes)
+                print(
+                    f"{law}, accumulator {accumulator}: {best.power:.1f} W, {best.shortfall / 1e5:.2f} bar short, "
+                    f"cost {best.cost:.1f} W; untuned {first.cost:.1f} W",
+                    flush=True,
+                )
+                for name, value in best.parameters.items():
+                    writer.writerow((law, accumulator, name, f"{value:.4g}"))
+                file.flush()
 
 
 if __name__ == "__main__":

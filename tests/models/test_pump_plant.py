@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from functools import cache
 from pathlib import Path
 
@@ -9,11 +10,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from arthur_acausal import Solution, SolverOptions, UsageError, translate
+from arthur_acausal import DeclarationError, Solution, SolverOptions, UsageError, translate
 from arthur_acausal.components.hydraulic import GPM
 from arthur_acausal.models.arthur.demand import Demand
-from arthur_acausal.models.arthur.power_unit import PumpLaw
+from arthur_acausal.models.arthur.power_unit import PowerUnit, PumpLaw
+from arthur_acausal.models.arthur.predictive_control import Predictive
 from arthur_acausal.models.arthur.pump_plant import PumpPlant, inputs_of
+from benchmarks.prediction import timed
 
 FloatArray = NDArray[np.float64]
 
@@ -27,6 +30,13 @@ LAWS: tuple[PumpLaw, ...] = (
     "clairvoyant",
 )
 HIGH, LOW = 0.7 * GPM, 0.2 * GPM
+
+
+CONTROL = [
+    *(0.01, 0.03, 0.3, 550.0, 135e5, 2e-9, 0.02, 0.2, 0.02, 15e5, 90e5),
+    *(0.078, 0.0637, 0.165, 50.0, 1.2247, 1e-3, 3.17e-4, 1.77e-7, 1e12, 1.75e-7, 140e5, 44.4, 0.03, 3.8e-13),
+]
+"""Tuning and plant as the inputs of Predictive have them."""
 
 
 def steps(t: FloatArray) -> FloatArray:
@@ -88,3 +98,48 @@ def test_a_demand_is_kept_in_a_file(tmp_path: Path) -> None:
     (tmp_path / "other.npz").write_bytes(b"PK something else")
     with pytest.raises(UsageError, match="holds no demand"):
         Demand.load(tmp_path / "other.npz")
+
+
+def test_foresight_keeps_the_pressure() -> None:
+    """A step of the flow that was seen to come costs less pressure than one that was not."""
+    after = run("predictive").t > 0.15
+    seen, unseen = (run("predictive", h)["unit.manifold.p"][after].min() for h in (0.3, 0.0))
+    assert 135e5 - seen < 0.5 * (135e5 - unseen)
+
+
+def test_a_pressure_that_is_not_needed_is_not_kept() -> None:
+    """60 bar are needed, and a margin of 15: the floor of 90 bar decides; leakage and throttling go with it."""
+    kept, free = run("predictive"), run("predictive pressure")
+    late = free.t > 0.4
+    assert free["unit.manifold.p"][late] == pytest.approx(np.full(late.sum(), 90e5), rel=0.1)
+    ratio = {
+        name: free.energy().losses_J[name] / kept.energy().losses_J[name] for name in ("load", "pump_leakage")
+    }
+    assert ratio["load"] < 0.85
+    assert ratio["pump_leakage"] < 0.85
+
+
+def test_a_law_travels_as_data() -> None:
+    """What another process makes of its description computes the same voltages, to the last bit."""
+    for free, known in ((True, None), (False, demand())):
+        law = Predictive(30, free, known)
+        again = Predictive.restore(json.loads(json.dumps(law.describe())))
+        for k in range(3):
+            given = np.array([300.0 + 10 * k, 130e5, 3e-5, *CONTROL, *[4e-5] * 11, *[80e5] * 11])
+            assert law(0.01 * k, given) == again(0.01 * k, given)
+
+
+def test_who_knows_is_given_what_it_knows() -> None:
+    with pytest.raises(DeclarationError, match="given the demand that it knows"):
+        translate(PowerUnit(law="clairvoyant"))
+    with pytest.raises(DeclarationError, match="given the demand that it knows"):
+        translate(PowerUnit(law="predictive", known=demand()))
+
+
+def test_every_call_of_a_law_is_timed() -> None:
+    call = Predictive.__call__
+    with timed() as taken:
+        run.__wrapped__("predictive")
+    assert len(taken) == 71  # at 0, 10, ... 700 ms
+    assert min(min(both) for both in taken) > 0.0
+    assert Predictive.__call__ is call
