@@ -69,7 +69,7 @@ class EventIteration:
         self._system = ConsistentSystem(dae, evaluator, attributes, algebraic, algebraic[:0])
         self._scheduled = scheduled
         self._factors: Solve | None = None
-        self._scale = np.zeros(len(dae.relations))
+        self._scale, self._scaled = np.zeros(len(dae.relations)), False
         self._law = Law(dae, evaluator, self._system.nominal, options.rtol)
         self._modes_before = np.zeros(0, dtype=bool)
         self._sampled = False
@@ -100,7 +100,7 @@ class EventIteration:
             modes = self._right_limit(
                 trusted, resolution, np.inf if number == 0 else 0.0 if doubtful else TRUST
             )
-            moving = np.flatnonzero(modes != (evaluator.m > 0.5))
+            moving = (modes != (evaluator.m > 0.5)).nonzero()[0]
             evaluator.m[:] = modes
             rising = self._rising()
             risen = np.count_nonzero(rising) > 0
@@ -182,14 +182,12 @@ class EventIteration:
         evaluator = self._evaluator
         if not evaluator.m.size:
             return np.zeros(0, dtype=bool)
-        t, y = float(evaluator.t[0]), evaluator.y.copy()
-        if (
-            flagged or not self._scale.any()
-        ):  # of time alone: g is zero at the event, but was not at the start
+        if flagged or not self._scaled:  # of time alone: g is zero at the event, but was not at the start
             self._rescale()
+        t, y = float(evaluator.t[0]), evaluator.y.copy()
         evaluator.t[0] = t + resolution
-        evaluator.y[:] += resolution * evaluator.yp
-        g = evaluator.roots().copy()
+        np.add(y, resolution * evaluator.yp, out=evaluator.y)
+        g = evaluator.roots()
         evaluator.t[0], evaluator.y[:] = t, y
         truth = self._modes.truth(g)
         for k, value in flagged.items():
@@ -205,13 +203,14 @@ class EventIteration:
         elsewhere = np.nan_to_num(evaluator.roots(), nan=0.0, posinf=0.0, neginf=0.0)
         self._scale = np.maximum(self._scale, np.maximum(np.abs(g), np.abs(elsewhere - g)))
         evaluator.y[:] = y
+        self._scaled = True
 
     def _rising(self) -> BoolArray:
         """Conditions that have become true since the last pass."""
         if not self._modes.conditions.size:
             return self._modes.conditions
         now = self._evaluator.conditions() > 0.5
-        rising = now & ~self._modes.conditions
+        rising = now > self._modes.conditions
         self._modes.conditions = now
         for k in rising.nonzero()[0].tolist():
             earlier = self._dae.whens[k].earlier

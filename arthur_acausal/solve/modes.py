@@ -22,7 +22,10 @@ class Modes:
 
     def truth(self, g: FloatArray) -> BoolArray:
         """Which relations hold for these values."""
-        return np.asarray((g > 0.0) | ((g == 0.0) & self._inclusive))
+        holds = g > 0.0
+        if np.count_nonzero(g) < g.size:
+            holds |= (g == 0.0) & self._inclusive
+        return holds
 
     def update(self) -> bool:
         """Set all modes from the present values; whether any changed."""

@@ -26,6 +26,8 @@ class Samples:
                 )
         # a fresh function for each run, where it has a state of its own
         self._functions = [getattr(b.function, "fresh", lambda f=b.function: f)() for b in self._blocks]
+        self._outputs = [np.array(b.outputs, dtype=np.intp) for b in self._blocks]
+        self._begins = [np.array(b.begins, dtype=np.intp) for b in self._blocks]
         self._triggers = {k: block.trigger for k, block in enumerate(self._blocks) if block.trigger >= 0}
         self._seen: dict[int, float] = {}  # values of the triggers when they were last asked for
         late = 1e-9 * self._period
@@ -77,9 +79,8 @@ class Samples:
                 where=block.where,
                 cause=f"it must return {len(block.outputs)} finite numbers",
             )
-        z, outputs = evaluator.z, list(block.outputs)
-        if block.begins:
-            begins = list(block.begins)
+        z, outputs, begins = evaluator.z, self._outputs[number], self._begins[number]
+        if begins.size:
             z[begins] += (t - z[block.since]) * z[outputs]
             z[block.since] = t
             result = (result - z[begins]) / self._period[number]
@@ -87,6 +88,8 @@ class Samples:
 
 
 def _numbers(result: Any) -> FloatArray:
+    if isinstance(result, np.ndarray):
+        return result.reshape(-1).astype(float)
     if result is None:
         return np.zeros(0)
     parts = result if isinstance(result, list | tuple) else [result]
