@@ -14,6 +14,7 @@ from arthur_acausal import (
     der,
     external,
     parameter,
+    sampled,
     simulate,
     translate,
     variable,
@@ -102,6 +103,30 @@ def test_told_of_events() -> None:
     assert bounces == 4  # at sqrt(2/g) (1, 3, 5, 7) = 0.45, 1.35, 2.26, 3.16
     assert sum(copy.restarts for copy in gravity.copies) >= bounces
     assert np.isclose(done["h"].max(), 1.0, atol=1e-6)
+
+
+class Sprung(Component):
+    """An oscillator, its spring from outside, pushed by a force that is sampled and held to first order."""
+
+    function: object = None
+    s: Real = variable("1", start=0.1, fixed=True)
+    v: Real = variable("1", start=0.0, fixed=True)
+    a: Real = variable("1/s")
+    u: Real = variable("1")
+    T: Real = parameter("s", default=1.0)
+
+    def equations(self) -> Equations:
+        yield self.T * der(self.s) == self.v
+        yield external(self.function, inputs=[self.s], outputs=[self.T * self.a])  # type: ignore[arg-type]
+        yield self.T * der(self.v) == self.T * self.a + self.u
+        yield sampled(lambda t, _: np.sin(t), period=0.1, outputs=[self.u], hold="first")
+
+
+def test_a_sample_costs_an_external_function_one_evaluation() -> None:
+    done = simulate(Sprung(function=Numeric(lambda x: -x[0], 1, 1)), 10.0, tolerance=1e-6)
+    samples, beside = 101, done.statistics.external_calls - done.statistics.residual_evaluations
+    assert done.statistics.restarts <= 2
+    assert samples - 20 < beside < samples + 60  # and some for initial values, starts and Jacobians
 
 
 class Pendulum(Component):
