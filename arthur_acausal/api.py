@@ -300,7 +300,12 @@ def _no_collection() -> Iterator[None]:
 
 
 def translate(
-    model: Component, *, name: str = "", check_units: bool = True, compile: str = "auto"
+    model: Component,
+    *,
+    name: str = "",
+    check_units: bool = True,
+    compile: str = "auto",
+    structural: Mapping[str, Any] | None = None,
 ) -> Translation:
     """Translate a model: flatten, reduce the index, order the equations, generate code.
 
@@ -309,6 +314,7 @@ def translate(
     check_units : whether the homogeneity of every equation is checked.
     compile : "auto" (by the system's C compiler where that pays), "often" (for what will run many times), "always",
         "never".
+    structural : values of structural parameters by path, also of parts, in place of all that the model says.
 
     Raises
     ------
@@ -316,7 +322,7 @@ def translate(
     """
     with _no_collection():
         begun = perf_counter()
-        flat = flatten(model, name=name, check_units=check_units)
+        flat = flatten(model, name=name, check_units=check_units, structural=structural)
         flattened = perf_counter()
         structured = transform(flat)
         transformed = perf_counter()

@@ -12,7 +12,7 @@ from arthur_acausal.declare.model import MISSING, Binding, Component, Model, Rec
 from arthur_acausal.declare.modify import declared, settle
 from arthur_acausal.declare.scope import Scope, using
 from arthur_acausal.declare.vector import split
-from arthur_acausal.errors import DeclarationError
+from arthur_acausal.errors import DeclarationError, UsageError
 
 
 def bind_root(model: Model, scope: Scope) -> Model:
@@ -21,6 +21,9 @@ def bind_root(model: Model, scope: Scope) -> Model:
     with using(scope):
         root = bind(model, "", scope, None)
         settle(scope)
+    if scope.structural:
+        path = next(iter(scope.structural))
+        raise UsageError(f"{path} is no structural parameter of {type(model).__name__}")
     scope.makes_events = True
     return root
 
@@ -50,6 +53,8 @@ def bind(template: Model, name: str, scope: Scope, owner: Model | None) -> Model
     )
     bound.__dict__.update(template.__dict__)
     bound.__dict__["_binding"] = binding
+    if scope.structural:
+        _replace_structural(bound, path)
     _check_structural(bound, path)
     if bound._declarations.vectors:
         with authored("the shape of a vector", path or type(bound).__name__, bound._where):
@@ -190,6 +195,16 @@ def _check_structural(bound: Model, path: str) -> None:
             where=bound._where,
             remedy=f"give it: {type(bound).__name__}({missing[0]}=...)",
         )
+
+
+def _replace_structural(bound: Model, path: str) -> None:
+    """Take over, and out of the scope, what is given for the structural parameters of this instance."""
+    given = bound._binding.scope.structural if bound._binding else {}
+    for name in bound._declarations.structural:
+        whole = f"{path}.{name}" if path else name
+        if whole in given:
+            bound.__dict__[name] = given[whole]
+            bound.__dict__["_modifications"] = {**bound._modifications, name: given.pop(whole)}
 
 
 def _number_quantities(bound: Model, binding: Binding) -> None:

@@ -97,6 +97,9 @@ class Scope:
         default_factory=list
     )  # (record of a component, the record that it stands for)
     later: list[Later] = field(default_factory=list)
+    structural: dict[str, Any] = field(
+        default_factory=dict
+    )  # path of a structural parameter -> what replaces all that its model says
     prefix: str = ""  # of all paths, left out in names: a component class reads the same in all its places
     makes_events: bool = True
     _symbols: dict[Atom, SX] = field(default_factory=dict)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from typing import Any
 
 import casadi as ca
 from casadi import SX
@@ -31,8 +32,14 @@ from arthur_acausal.flatten.system import (
 from arthur_acausal.flatten.template import rebased, structure_key
 
 
-def flatten(model: Component, *, name: str = "", check_units: bool = True) -> FlatSystem:
-    """Return the flat system of a model.
+def flatten(
+    model: Component,
+    *,
+    name: str = "",
+    check_units: bool = True,
+    structural: Mapping[str, Any] | None = None,
+) -> FlatSystem:
+    """Return the flat system of a model; ``structural``: values of structural parameters, of parts too, by path.
 
     Raises the errors of errors.py for whatever is wrong with a declaration, a connection, a unit or a balance.
     """
@@ -46,7 +53,7 @@ def flatten(model: Component, *, name: str = "", check_units: bool = True) -> Fl
             if isinstance(model, type)
             else "give an instance of a Component",
         )
-    scope = Scope()
+    scope = Scope(structural=dict(structural or {}))
     root = bind_root(model, scope)
     assert isinstance(root, Component)
     if check_units:

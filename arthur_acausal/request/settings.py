@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from arthur_acausal.solve.inputs import Input
 
 NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+STEP = re.compile(r"(\w+)(?:\[(\d+)\])?")
 TRUTH = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0": False}
 
 
@@ -65,6 +66,33 @@ def structural_parameters(model: type[Any]) -> Mapping[str, Any]:
     """Structural parameters of a model class: name to default."""
     declared: Mapping[str, Any] = model._declarations.structural
     return declared
+
+
+def structural_parts(model: Any, paths: Iterable[str]) -> dict[str, type[Any]]:
+    """Return which paths are structural parameters of parts of a model, with the classes of these parts."""
+    from arthur_acausal.declare.bind import bind_root
+    from arthur_acausal.declare.model import Model
+    from arthur_acausal.declare.scope import Scope
+
+    wanted = [path for path in paths if "." in path]
+    root = bind_root(model, Scope()) if wanted else None
+    found = {}
+    for path in wanted:
+        place, _, name = path.rpartition(".")
+        part: Any = root
+        for step in STEP.findall(place):
+            part = _step(part, *step)
+        if isinstance(part, Model) and name in part._declarations.structural:
+            found[path] = type(part)
+    return found
+
+
+def _step(part: Any, name: str, number: str) -> Any:
+    """Return what stands at ``name`` or ``name[number]`` of a part, None where there is nothing."""
+    below = vars(part).get(name) if part is not None else None
+    if not number:
+        return below
+    return below[int(number)] if isinstance(below, list) and int(number) < len(below) else None
 
 
 def annotation(model: type[Any], name: str) -> Any:

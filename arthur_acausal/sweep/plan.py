@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import inspect
-import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -15,18 +13,15 @@ from arthur_acausal.sweep import derived
 from arthur_acausal.sweep.design import Run, runs
 from arthur_acausal.sweep.factor import Value, inside
 from arthur_acausal.sweep.job import Job, Signal, Values
-from arthur_acausal.sweep.reductions import parse
-from arthur_acausal.sweep.specification import Output, Specification
+from arthur_acausal.sweep.prepare import job_of
+from arthur_acausal.sweep.specification import Specification
 from arthur_acausal.sweep.task import Task
 from arthur_acausal.units import to_si
 
 if TYPE_CHECKING:
     from arthur_acausal.api import Translation
 
-FINER = 10  # instants that reductions look at, for each one whose trajectory is kept
 WORTH_COMPILING = 20  # runs
-MOST_OUTPUTS = 24  # variables that are kept of a model that names none
-_PACKAGE = "arthur_acausal"
 
 Structure = tuple[str, tuple[tuple[str, str], ...]]  # a model's name and its structural parameters as text
 
@@ -48,6 +43,7 @@ class Plan:
     chosen: Sequence[Run] = ()
     _structures: dict[Structure, _Prepared] = field(default_factory=dict)
     _names: dict[str, set[str]] = field(default_factory=dict)
+    _parts: dict[Structure, Mapping[str, type[Any]]] = field(default_factory=dict)
 
     @cached_property
     def runs(self) -> list[Run]:
@@ -79,10 +75,27 @@ class Plan:
         return Task(run.number, prepared.job, found.values, prepared.translation.to_bytes), found.columns
 
     def _structure(self, run: Run) -> Structure:
+        given = {**self.specification.set, **run.values}
         names = self._structural_names(run.model)
-        fixed = {p: _text(v) for p, v in self.specification.set.items() if p in names}
-        varied = {p: _text(v) for p, v in run.values.items() if p in names}
-        return run.model, tuple(sorted({**fixed, **varied}.items()))
+        own = {path: _text(value) for path, value in given.items() if path in names}
+        parts = self._structural_parts((run.model, tuple(sorted(own.items()))), given)
+        of_parts = {path: _text(value) for path, value in given.items() if path in parts}
+        return run.model, tuple(sorted({**own, **of_parts}.items()))
+
+    def _structural_parts(self, own: Structure, paths: Iterable[str]) -> Mapping[str, type[Any]]:
+        """Return the structural parameters of parts, for given ones of the model itself."""
+        from arthur_acausal.request.settings import structural_parts
+
+        if own not in self._parts:
+            self._parts[own] = structural_parts(self._built(own), paths)
+        return self._parts[own]
+
+    def _built(self, own: Structure) -> Any:
+        """Return an instance of a model with structural parameters of its own."""
+        from arthur_acausal.request.settings import read_settings
+
+        kind = self.find(own[0])
+        return kind(**read_settings(kind, [f"{path}={text}" for path, text in own[1]]).structural)
 
     def _structural_names(self, model: str) -> set[str]:
         from arthur_acausal.request.settings import required_parameters, structural_parameters
@@ -184,19 +197,30 @@ def _signal(text: str, folder: Path) -> Signal | None:
 def _prepare(plan: Plan, model: str, structural: Mapping[str, str]) -> _Prepared:
     """Translate one structure, and settle what all its runs share."""
     from arthur_acausal.api import translate
-    from arthur_acausal.request.settings import read_settings
+    from arthur_acausal.request.settings import convert
 
-    kind, specification = plan.find(model), plan.specification
-    settings = read_settings(kind, [f"{path}={text}" for path, text in structural.items()])
-    built = kind(**settings.structural)
-    translation = translate(built, name=model if ":" not in model else "", compile=_mode(plan))
+    specification, names = plan.specification, plan._structural_names(model)
+    own: Structure = model, tuple((path, text) for path, text in structural.items() if path in names)
+    parts = plan._structural_parts(own, structural)
+    built = plan._built(own)
+    translation = translate(
+        built,
+        name=model if ":" not in model else "",
+        compile=_mode(plan),
+        structural={
+            path: convert(kind, path.rpartition(".")[2], structural[path])
+            for path, kind in parts.items()
+            if path in structural
+        },
+    )
     found = _Found()
     for section in (specification.set, specification.inputs, specification.start):
         for path, value in section.items():
             if path not in structural:
                 _place(translation, path, _number(value), found, plan.folder)
     numbers = {p: v for p, v in found.columns.items() if isinstance(v, float)}
-    return _Prepared(translation, _job(plan, translation, built, found), structural, numbers)
+    job = job_of(specification, translation, found.values)
+    return _Prepared(translation, job, structural, numbers)
 
 
 def _mode(plan: Plan) -> str:
@@ -205,66 +229,6 @@ def _mode(plan: Plan) -> str:
 
     many = bool(plan.chosen) or len(plan.runs) >= WORTH_COMPILING
     return "often" if many and compiler() is not None else "auto"
-
-
-def _job(plan: Plan, translation: Translation, model: Any, found: _Found) -> Job:
-    from arthur_acausal.result.run import plain
-
-    specification, output = plan.specification, plan.specification.output
-    paths = list(translation.dae.recovery.paths)
-    variables = outputs(translation, output)
-    reductions = parse(output.reductions, variables, paths)
-    terms = getattr(model, "audit_terms", None)
-    modules, folders = _own_modules(type(model), output)
-    only_ends = not output.trajectories and all(r.kind in ("final", "initial") for r in reductions)
-    span = specification.stop_time - specification.start_time
-    return Job(
-        system=translation.to_bytes(),
-        description=(inspect.getdoc(model) or "").partition("\n")[0],
-        audit=plain(terms()) if terms is not None else {},
-        start_time=specification.start_time,
-        stop_time=specification.stop_time,
-        tolerance=specification.tolerance,
-        interval=min(output.interval, span),
-        resolution=span if only_ends else min(output.interval / FINER, span),
-        variables=tuple(variables) if output.trajectories else (),
-        reductions=tuple(reductions),
-        parameters=found.parameters,
-        inputs=found.inputs,
-        start=found.start,
-        trusted=modules,
-        folders=folders,
-    )
-
-
-def outputs(translation: Translation, output: Output) -> list[str]:
-    """Return what is kept: the variables asked for, else the model's ``outputs``, else its signals out, its states."""
-    from arthur_acausal.result.pattern import select
-
-    paths = translation.dae.recovery.paths
-    if output.variables:
-        return list(select(list(output.variables), paths))
-    named = getattr(translation.model, "outputs", None)
-    if isinstance(named, Sequence) and not isinstance(named, str):
-        return list(select(list(named), paths))
-    quantities = type(translation.model)._declarations.quantities
-    signals = [name for name, quantity in quantities.items() if quantity.kind == "output"]
-    dae = translation.dae
-    states = [path for path, is_state in zip(dae.y_paths, dae.differential, strict=True) if is_state]
-    return signals or states[:MOST_OUTPUTS]
-
-
-def _own_modules(kind: type[Any], output: Output) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the user's modules that a worker may import functions from, and the folders to find them in."""
-    names = [base.__module__ for base in kind.__mro__]
-    names += [text.partition(":")[0] for text in output.reductions or () if ":" in text]
-    own = sorted({n for n in names if n.partition(".")[0] not in (_PACKAGE, "builtins", "abc", "typing")})
-    folders = {
-        str(Path(file).resolve().parents[name.count(".")])
-        for name in own
-        if (file := getattr(sys.modules.get(name), "__file__", None))
-    }
-    return tuple(own), tuple(sorted(folders))
 
 
 def _text(value: object) -> str:

@@ -54,6 +54,12 @@ class Chain(Component):
         yield self.x == sum((lag.x for lag in self.lags), 0.0)
 
 
+class Parted(Component):
+    """With a part that has a structure of its own."""
+
+    chain = Chain()
+
+
 class Guessed(Decay):
     """With a start value for what is computed."""
 

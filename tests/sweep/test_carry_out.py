@@ -27,7 +27,7 @@ from arthur_acausal.sweep.lock import Lock
 from arthur_acausal.sweep.merge import merge
 from arthur_acausal.sweep.plan import Plan
 from arthur_acausal.sweep.specification import from_mapping
-from tests.sweep.models import Turning
+from tests.sweep.models import Parted, Turning
 
 MODELS = "tests.sweep.models"
 OF_THE_MACHINE = ["wall_s", "cpu_s", "attempts"]  # columns that may differ from run to run
@@ -114,6 +114,26 @@ def test_inputs_structures_derived_and_fixed_values(tmp_path: Path) -> None:
     np.testing.assert_allclose(
         frame["final(x)"], frame["n"].astype(float) * np.exp(-1 / frame["tau"]), rtol=1e-4
     )
+
+
+def test_structures_of_parts(tmp_path: Path) -> None:
+    given = plan("Parted", vary={"chain.n": "1,2,3", "chain.tau": "1,2"}, output={"variables": ["chain.x"]})
+    tally = carry_out(given, tmp_path / "d", How(workers=1))
+    assert (tally.ok, tally.failed) == (6, 0)
+    frame = table(tmp_path / "d")
+    expected = frame["chain.n"].astype(float) * np.exp(-1.0 / frame["chain.tau"])
+    np.testing.assert_allclose(frame["final(chain.x)"], expected, rtol=1e-5)
+    assert len({id(given.prepared(run)) for run in given.runs}) == 3  # each structure is translated once
+    with pytest.raises(UsageError, match="n is a structural parameter of type int"):
+        plan("Parted", vary={"chain.n": "1,x"}).task(plan("Parted", vary={"chain.n": "x"}).runs[0])
+
+
+def test_structural_parameters_of_parts_by_path() -> None:
+    assert translate(Parted(), structural={"chain.n": 3}).report.states == [
+        f"chain.lags[{k}].x" for k in range(3)
+    ]
+    with pytest.raises(UsageError, match=r"chain\.m is no structural parameter of Parted"):
+        translate(Parted(), structural={"chain.m": 3})
 
 
 def test_several_models_in_one_sweep(tmp_path: Path) -> None:
