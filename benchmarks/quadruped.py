@@ -5,13 +5,14 @@
 All methods integrate the same equations from the same checkpoint with the same set points, see quadruped_problem.py.
 The error is the largest of any joint's angle at any sample, against ours at a tight tolerance. The fixed-step methods
 are compiled C, MuJoCo included, see quadruped_fixed.c; the linearly implicit ones may keep a Jacobian for some steps.
+At the beginning of the trot ours is held, too, against RK4 with steps so short that only rounding is left of its error.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +20,7 @@ import numpy as np
 from benchmarks.measure import load_average, parser, show
 
 if TYPE_CHECKING:
+    from benchmarks.quadruped_fixed import Program
     from benchmarks.quadruped_problem import Array, Cost, Problem
 
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)
@@ -42,22 +44,28 @@ SEARCHED = 5  # samples over which a step has to be stable in the search
 EXCHANGES = (2e-3, 1e-3, 0.5e-3, 0.1e-3)  # of the co-simulation [s]
 MICRO = 1e-5  # step of the hydraulics within it [s]
 TARGET = 1e-5  # error at which costs are compared [rad]
+AGREEING = 1e-8  # rtol of ours beside the finest RK4
+AGREED = 0.05  # for so long [s]
 REPORT_S_PER_S = 17 * 3600.0
 """What the ARTHuR report's own program takes: 17 hours for a simulated second [s]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Size:
-    """How much is run: trot before the checkpoint [s], trot compared [s], rtol of the reference, trot timed [s]."""
+    """How much is run.
+
+    Trot before the checkpoint [s], trot compared [s], rtol of the reference, trot timed [s], finest step of RK4 [s].
+    """
 
     warm_up: float
     duration: float
     reference: float
     timed: float
+    finest: float
 
 
-FULL = Size(1.0, 0.5, 1e-9, 2.0)
-QUICK = Size(0.4, 0.1, 1e-8, 0.5)
+FULL = Size(1.0, 0.5, 1e-9, 2.0, 1e-7)
+QUICK = Size(0.4, 0.1, 1e-8, 0.5, 1e-6)
 
 
 def row(method: str, key: str, value: float, cost: Cost, reference: Array) -> dict[str, Any]:
@@ -77,8 +85,8 @@ def ours(trot: Problem, reference: Array) -> list[dict[str, Any]]:
     return [row("ours", "rtol", rtol, trot.ours(rtol), reference) for rtol in TOLERANCES]
 
 
-def rivals(trot: Problem, reference: Array) -> dict[str, list[dict[str, Any]]]:
-    """Return the figures of the fixed-step methods and of the co-simulation."""
+def rivals(trot: Problem, reference: Array, finest: float) -> dict[str, Any]:
+    """Return the figures of the fixed-step methods and of the co-simulation, and how the finest agrees with ours."""
     from benchmarks.quadruped_fixed import compiled
 
     with compiled(trot) as program:
@@ -94,7 +102,16 @@ def rivals(trot: Problem, reference: Array) -> dict[str, list[dict[str, Any]]]:
             row("co-simulation", "h", H, program.run("cosim", MICRO, exchange=H), reference)
             for H in EXCHANGES
         ]
-    return {"fixed_step": fixed, "cosim": cosim}
+        agreement = agreeing(trot, program, finest)
+    return {"fixed_step": fixed, "cosim": cosim, "agreement": agreement}
+
+
+def agreeing(trot: Problem, program: Program, h: float) -> dict[str, float]:
+    """Return by how much the joints of ours and of RK4 with the step ``h`` [s] differ."""
+    beginning = replace(trot, duration=AGREED)
+    joints = program.run("rk4", h, ticks=beginning.times.size - 1).joints
+    difference = float(np.max(np.abs(joints - beginning.ours(AGREEING).joints)))
+    return {"rtol": AGREEING, "h": h, "duration_s": AGREED, "difference_rad": difference}
 
 
 def cost_at(rows: Iterable[dict[str, Any]], target: float) -> float:
@@ -122,7 +139,7 @@ def measured(size: Size) -> dict[str, Any]:
     trot = problem(size.warm_up, size.duration)
     reference = trot.ours(size.reference).joints
     figures["ours"] = ours(trot, reference)
-    figures |= rivals(trot, reference)
+    figures |= rivals(trot, reference, size.finest)
     gain = cost_at(figures["fixed_step"] + figures["cosim"], TARGET) / cost_at(figures["ours"], TARGET)
     figures["cpu_gain_at_1e-5"] = gain if np.isfinite(gain) else None
     return figures | {"load_average": load_average(), "report_s_per_s": REPORT_S_PER_S}
@@ -145,6 +162,12 @@ def table(figures: dict[str, Any]) -> None:
     gain = figures["cpu_gain_at_1e-5"]
     if gain is not None:
         print(f"CPU time of the best rival over ours, at {TARGET:g} rad or better: {gain:.2f}")
+    found = figures["agreement"]
+    print(
+        f"Ours at rtol {found['rtol']:g} and RK4 at {found['h']:g} s, {found['duration_s']:g} s of trot:",
+        end=" ",
+    )
+    print(f"joints within {found['difference_rad']:.1e} rad")
     shares = ", ".join(f"{part} {share:.0%}" for part, share in figures["profile"].items())
     print(f"With the controller at rtol 1e-4: {figures['realtime_factor']:.2f} s wall,", end=" ")
     print(f"{figures['realtime_cpu_s_per_s']:.2f} s CPU for a simulated second\n({shares})")
