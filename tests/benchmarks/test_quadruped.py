@@ -69,8 +69,11 @@ def test_cosimulation_comes_nearer_with_more_exchanges(program: Program, trot: P
 
 
 def test_cost_at_an_error() -> None:
-    rows = [
-        {"cpu_s_per_s": c, "error_rad": e} for c, e in ((1.0, 1e-3), (3.0, 1e-6), (2.0, 1e-5), (0.1, None))
-    ]
-    assert cost_at(rows, 1e-5) == 2.0
-    assert cost_at(rows, 1e-7) == float("inf")
+    def runs(method: str, *points: tuple[float, float | None]) -> list[dict[str, object]]:
+        return [{"method": method, "cpu_s_per_s": c, "error_rad": e} for c, e in points]
+
+    line = runs("line", (4.0, 1e-6), (1.0, 1e-4), (0.1, None))
+    assert cost_at(line, 1e-5) == pytest.approx(2.0)  # half the way, in logarithms
+    assert cost_at(line, 1e-3) == pytest.approx(1.0)  # what is more exact will do
+    assert cost_at(line, 1e-7) == float("inf")
+    assert cost_at(line + runs("point", (1.5, 1e-6), (0.2, 1e-2)), 1e-5) < 1.5
