@@ -76,7 +76,8 @@ class Demand:
     def of_data(cls, data: Mapping[str, Any]) -> Demand:
         """Return what ``as_data`` has written."""
         given: dict[str, Any] = {field.name: np.array(data[field.name], float) for field in fields(cls)}
-        return cls(**given | {"step": float(given["step"])})
+        given["step"] = float(given["step"])
+        return cls(**given)
 
     def save(self, path: str | Path) -> None:
         """Write it to a file of NumPy's (npz), in single precision."""

@@ -99,7 +99,7 @@ class Trial:
     """Runs of one controller with a demand; translated once."""
 
     def __init__(self, law: PumpLaw, demand: Demand, accumulator: bool = True) -> None:
-        self.law = law
+        self.law: PumpLaw = law
         self._demand = demand
         self._plant: Translation = translate(PumpPlant(demand=demand, law=law, accumulator=accumulator))
         self._inputs = inputs_of(demand)

@@ -183,7 +183,7 @@ def discrete_model(plant: Plant, h: float) -> tuple[FloatArray, FloatArray, Floa
     field[1, 0] = p.delivery / (p.C * BAR)
     field[1, 1] = -1 / (p.R_G * p.C)
     field[1, 3] = -CC / (p.C * BAR)
-    moved = expm(field * h)
+    moved: FloatArray = np.asarray(expm(field * h), dtype=float)
     return moved[:2, :2], moved[:2, 2], moved[:2, 3]
 
 

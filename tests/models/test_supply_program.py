@@ -91,3 +91,36 @@ def test_too_much_pressure_leaves_over_the_relief_valve() -> None:
     assert pressure[0] == pytest.approx(140e5, rel=1e-6)
     assert volts[0] == pytest.approx(PLANT.K_e * w)  # no current
     assert speed[0] < 0.9 * w
+
+
+def effort(volts: FloatArray, w: float, p: float, flow: FloatArray, bound: float) -> float:
+    """Electrical energy less what is stored at the end, and the price of undershoot: by small steps of the plant."""
+    fine = 20
+    h = DESIGN.h / fine
+    A, b_V, b_q = discrete_model(PLANT, h)
+    energy, price = 0.0, 0.0
+    x = np.array([w, p / 1e5])
+    stored = PLANT.J * w**2 / 2 + PLANT.C * p**2 / 2
+    for V, q in zip(volts, flow, strict=True):
+        for _ in range(fine):
+            before = x
+            x = A @ x + b_V * V + b_q * q * 1e6
+            middle = (before[0] + x[0]) / 2
+            energy += PLANT.k_P * V * (V - PLANT.K_e * middle) / PLANT.R_LL * h
+        price += DESIGN.undershoot * max(bound - 1e5 * x[1], 0.0) ** 2 * DESIGN.h
+    gained = PLANT.J * x[0] ** 2 / 2 + PLANT.C * (1e5 * x[1]) ** 2 / 2 - stored
+    return float(energy - gained + price)
+
+
+def test_no_other_voltages_take_less_energy() -> None:
+    """Whatever is changed about them: what the motor takes in, less what is stored, grows, or the pressure falls."""
+    random = np.random.default_rng(4)
+    flow = 3e-5 + 1e-5 * np.sin(np.linspace(0.0, 6.0, 30))
+    w, V = balance(3e-5, 130e5)
+    volts, (_, pressure) = SupplyProgram(PLANT, DESIGN).solve(w, 130e5, V, flow, BOUND)
+    assert pressure.max() < 139e5  # nothing goes over the relief valve
+    least = effort(volts, w, 130e5, flow, 130e5)
+    for size in (0.5, 2.0):
+        for _ in range(10):
+            smooth = np.convolve(random.normal(size=34), np.ones(5) / 5, mode="valid")
+            assert effort(volts + size * smooth, w, 130e5, flow, 130e5) > least
