@@ -18,7 +18,7 @@ from arthur_acausal.solve.protocol import DAE, FloatArray
 from arthur_acausal.solve.trajectory import Trajectory
 
 
-@one_thread()
+@one_thread(scipy=True)
 def simulate(
     dae: DAE,
     *,

@@ -30,7 +30,7 @@ class Stepper:
     InitializationError, UsageError : as `simulate` does.
     """
 
-    @one_thread()
+    @one_thread(scipy=True)
     def __init__(
         self,
         dae: CompiledDAE,
@@ -91,7 +91,7 @@ class Stepper:
             raise UsageError(f"inputs must be finite, not {dict(inputs)}")
         self._run.impose(values)
 
-    @one_thread()
+    @one_thread(scipy=True)
     def advance(self, until: float) -> None:
         """Integrate up to a time [s], or to where the model ends the run.
 
