@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -77,7 +78,11 @@ def _trials(folder: Path, workers: int | None, resume: bool) -> Callable[[str, M
     model = "arthur_acausal.models.arthur.study.trial:Trial"
 
     def carry_out(name: str, specification: Mapping[str, Any]) -> Any:
-        found = sweep(model, folder=folder / name, workers=workers, resume=resume, **specification)
+        bar = sys.stderr.isatty()
+        found = sweep(
+            model, folder=folder / name, workers=workers, resume=resume, progress=bar, **specification
+        )
+        typer.echo(f"{name}: {len(found.table)} runs", err=True)
         return found.table.to_dict("list")
 
     return carry_out

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -48,6 +49,11 @@ def audit(solution: Solution) -> Energy:
     ``valves[*].E`` are allowed.
     """
     terms = solution.run.audit
+    lists = [
+        *terms.get("losses", {}).values(),
+        *(terms.get(name, ()) for name in ("input", "work", "stored")),
+    ]
+    solution.values(_paths(solution, chain.from_iterable(map(_listed, lists))))  # at once: that is faster
     losses = {cause: total(solution, paths) for cause, paths in terms.get("losses", {}).items()}
     put_in, work, stored = (total(solution, terms.get(name, ())) for name in ("input", "work", "stored"))
     rest = put_in - sum(losses.values()) - work - stored
@@ -58,11 +64,19 @@ def audit(solution: Solution) -> Energy:
 def total(solution: Solution, terms: str | Iterable[str]) -> float:
     """Sum of energies over the run, J."""
     amount = 0.0
-    for term in [terms] if isinstance(terms, str) else terms:
+    for term in _listed(terms):
         sign = -1.0 if term.startswith("-") else 1.0
-        for path in solution.select(term.removeprefix("-")):
+        for path in _paths(solution, [term]):
             amount += sign * gain(solution, path)
     return amount
+
+
+def _listed(terms: str | Iterable[str]) -> Iterable[str]:
+    return [terms] if isinstance(terms, str) else terms
+
+
+def _paths(solution: Solution, terms: Iterable[str]) -> list[str]:
+    return [path for term in terms for path in solution.select(term.removeprefix("-"))]
 
 
 def gain(solution: Solution, path: str) -> float:

@@ -31,7 +31,8 @@ def write_study(folder: Path, sweep: Sweeping, size: Size, schemes: Sequence[Sch
         "runs": len(comparison.results),
         "worst_closure": comparison.closure,
         "differences": comparison.differences(),
-        "at_equal_sag": comparison.equal_sag(),
+        "at_equal_sag": comparison.equal("undershoot_bar_rms"),
+        "at_equal_force_error": comparison.equal("force_error_rms"),
         "fell_or_failed": comparison.failures,
     }
     _write_json(folder / "comparisons.json", told)

@@ -16,7 +16,7 @@ COMPARED = ("electrical_W", "relief_W", "undershoot_bar_rms", "undershoot_bar_ma
 """Measures whose differences are told."""
 FRONTS = ("undershoot_bar_rms", "force_error_rms")
 """What stands against the electrical power in the pictures of the fronts."""
-TRIED = VARIED[0]
+TRIED = VARIED
 
 
 @dataclass(frozen=True)
@@ -79,62 +79,57 @@ class Comparison:
                     )
         return rows
 
-    def equal_sag(self, measure: str = "undershoot_bar_rms") -> list[dict[str, Any]]:
-        """Return what foresight takes more than a scheme without it at the same depth of undershoot."""
+    def equal(self, measure: str) -> list[dict[str, Any]]:
+        """Return what schemes with foresight take more than those without, their set points moved to equal measure."""
         rows = []
-        for scheme in self.schemes:
-            if scheme.foresees or scheme.knows:
-                for other in self.schemes:
-                    if not (other.foresees or other.knows):
-                        found = at_equal(self.main(scheme, TRIED), self.at_set_points(other), measure)
-                        rows.append(
-                            {"scheme": scheme.name, "than": other.name, "relative_W": found.as_data()}
-                        )
+        for task in self.moved:
+            for scheme in (s for s in self.schemes if s.foresees or s.knows):
+                for other in (s for s in self.schemes if not (s.foresees or s.knows)):
+                    found = at_equal(self.main(scheme, task), self.at_set_points(other, task), measure)
+                    row = {"task": task, "scheme": scheme.name, "than": other.name}
+                    rows.append(row | {"relative_W": found.as_data()})
         return rows
 
-    def at_set_points(self, scheme: Scheme) -> list[Result]:
-        """Return the runs of a scheme at all its set points, otherwise unchanged."""
-        return [
-            r
-            for r in self.results
-            if r.scheme is scheme and r.case == _plain(r.case, set_point=r.case.set_point)
-        ]
+    @property
+    def moved(self) -> list[str]:
+        """The tasks at which set points were varied."""
+        changed = (r for r in self.results if r.case.set_point != r.scheme.set_point.values[0])
+        return list(dict.fromkeys(r.case.task.name for r in changed))
+
+    def at_set_points(self, scheme: Scheme, task: str) -> list[Result]:
+        """Return the runs of a scheme at a task at all its set points, otherwise unchanged."""
+        found = (self.changed(scheme, "set_point", value, task) for value in scheme.set_point.values)
+        return [r for runs in found for r in runs]
 
     def changed(self, scheme: Scheme, name: str, value: Any, task: str = TRIED) -> list[Result]:
         """Return the runs at a task where one thing of the cases has a value, all others being the scheme's own."""
-        own = scheme.set_point.values[0]
-        return [
-            r
-            for r in self.results
-            if r.scheme is scheme and r.case.task.name == task
-            and r.case == _plain(r.case, **({"set_point": own} | {name: value}))
-        ]  # fmt: skip
+        given = {"set_point": scheme.set_point.values[0], name: value}
+        runs = (r for r in self.results if r.scheme is scheme and r.case.task.name == task)
+        return [r for r in runs if r.case == Case(r.case.task, r.case.seed, **given)]
 
     def points(self) -> list[dict[str, Any]]:
         """Return the points of the fronts: each scheme at each set point, whether none is better in both."""
+        return [row for task in self.moved for row in self._points(task)]
+
+    def _points(self, task: str) -> list[dict[str, Any]]:
         rows: list[dict[str, Any]] = []
         for scheme in self.schemes:
-            runs = self.at_set_points(scheme)
             for value in scheme.set_point.values:
-                at = [r for r in runs if r.case.set_point == value and r.case.task.name == TRIED]
-                if not at:
-                    continue
-                row: dict[str, Any] = {
-                    "scheme": scheme.name,
-                    "set_point": value,
-                    "unit": scheme.set_point.name,
-                }
-                for name in ("electrical_W", *FRONTS):
-                    told = estimate(r[name] for r in at)
-                    row |= {name: told.mean, f"{name}_ci95": told.ci95, "n": told.n}
-                rows.append(row | {"task": TRIED, "falls": sum(bool(r["fell"]) for r in at)})
+                if at := self.changed(scheme, "set_point", value, task):
+                    row: dict[str, Any] = {"task": task, "scheme": scheme.name, "set_point": value}
+                    row |= {"unit": scheme.set_point.name, "runs": len(at)}
+                    row["falls"] = sum(r["fell"] == 1.0 or r.failed for r in at)
+                    for name in ("electrical_W", *FRONTS):
+                        told = estimate(r[name] for r in at)
+                        row |= {name: told.mean, f"{name}_ci95": told.ci95}
+                    rows.append(row)
         for name in FRONTS:
-            known = {
+            upright = {
                 k: (row["electrical_W"], row[name])
                 for k, row in enumerate(rows)
                 if row["electrical_W"] is not None and not row["falls"]
             }
-            best = front(known)
+            best = front(upright)
             for k, row in enumerate(rows):
                 row[f"front_{name}"] = k in best
         return rows
@@ -153,10 +148,6 @@ class Comparison:
             for r in self.results
             if r.failed or r["fell"] == 1.0
         ]  # fmt: skip
-
-
-def _plain(case: Case, **changed: Any) -> Case:
-    return Case(case.task, case.seed, **changed)
 
 
 def describe(case: Case) -> Mapping[str, Any]:

@@ -10,7 +10,7 @@ from arthur_acausal.models.arthur.study.design import ERRORS, HORIZONS
 from arthur_acausal.models.arthur.study.measures import WANTED
 from arthur_acausal.models.arthur.study.results import Result
 from arthur_acausal.models.arthur.study.schemes import BASELINE, PRESENT, Scheme
-from arthur_acausal.models.arthur.study.statistics import Estimate, at_equal, paired
+from arthur_acausal.models.arthur.study.statistics import Estimate, paired
 from arthur_acausal.models.arthur.study.tables import main_table, text
 
 EXPECTED = {
@@ -30,7 +30,8 @@ def findings(comparison: Comparison) -> str:
         _sound(comparison),
         "## Against constant speed\n\n" + _against_baseline(comparison),
         "## Against control by what is measured now\n\n" + _against_present(comparison, foreseeing),
-        "## At equal sag\n\n" + _equal(comparison, foreseeing),
+        "## At equal sag\n\n" + _equal(comparison),
+        "## Lower pressure without foresight\n\n" + _set_points(comparison),
         _accumulator(comparison),
         _varied(comparison, "horizon", HORIZONS, "Horizon", "{:.0f} ms", 1e3),
         _varied(comparison, "error", ERRORS, "Error of the model", "{:+.0f} %", 100.0),
@@ -121,23 +122,40 @@ def _verdict(power: Estimate, sag: Estimate) -> str:
     return "no difference is certain"
 
 
-def _equal(comparison: Comparison, foreseeing: Sequence[Scheme]) -> str:
+def _equal(comparison: Comparison) -> str:
     """Say what foresight takes where the sag is that of a scheme without it, whose set point is moved to that."""
     lines = []
-    for scheme in foreseeing:
-        for other in comparison.schemes:
-            if other.foresees or other.knows:
-                continue
-            curve = [r for r in comparison.at_set_points(other) if r.case.task.name == TRIED]
-            found = at_equal(comparison.main(scheme, TRIED), curve, "undershoot_bar_rms")
-            if found.mean is None:
-                told = "its set points do not reach that sag"
-            elif not found.certain:
-                told = f"{text(found, '{:+.2%}')} power of {found.n} seeds: the sign is not certain"
-            else:
-                told = f"{text(found, '{:+.2%}')} power of {found.n} seeds"
-            lines.append(f"- {scheme.name} against {other.name}: {told}.")
-    return f"At {TRIED} m/s, the other's set point moved to the same rms sag:\n\n" + "\n".join(lines)
+    for row in comparison.equal("undershoot_bar_rms"):
+        found = Estimate(**row["relative_W"])
+        told = f"{text(found, '{:+.2%}')} power, of {found.n} seeds" + (
+            "" if found.certain else ": not certain"
+        )
+        if found.mean is None:
+            told = "its set points do not reach that sag"
+        lines.append(f"- {row['task']}, {row['scheme']} against {row['than']}: {told}.")
+    return "The other's set point moved to the same rms sag, linear in between:\n\n" + "\n".join(lines)
+
+
+def _set_points(comparison: Comparison) -> str:
+    """Tell of each scheme at each set point: it may be the pressure that saves, not the foresight."""
+    lines = [
+        "| task | scheme | set point | falls | battery W | sag rms bar | force error N |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for p in comparison.points():
+        power, sag, force = (
+            text(Estimate(p[name], p[f"{name}_ci95"], p["runs"]), form)
+            for name, form in (
+                ("electrical_W", "{:.0f}"),
+                ("undershoot_bar_rms", "{:.2f}"),
+                ("force_error_rms", "{:.2f}"),
+            )
+        )
+        lines.append(
+            f"| {p['task']} | {p['scheme']} | {p['set_point']:g} {p['unit']} | {p['falls']} of {p['runs']} "
+            f"| {power} | {sag} | {force} |"
+        )
+    return "\n".join(lines)
 
 
 def _accumulator(comparison: Comparison) -> str:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from arthur_acausal.models.arthur.budget import cascades
 from arthur_acausal.models.arthur.study.comparison import FRONTS, TRIED, Comparison
 from arthur_acausal.models.arthur.study.design import ERRORS, HORIZONS
 from arthur_acausal.models.arthur.study.measures import LOSSES
+from arthur_acausal.models.arthur.study.schemes import Scheme
 from arthur_acausal.models.arthur.study.statistics import estimate
 
 if TYPE_CHECKING:
@@ -38,34 +39,40 @@ def figures(comparison: Comparison) -> dict[str, Figure]:
 
 
 def fronts(comparison: Comparison) -> Figure:
-    """Return electrical power against sag and against the force error, a line a scheme over its set points."""
+    """Return power against sag and against the force error, a line a scheme over its set points, a row a task."""
     from matplotlib.figure import Figure
 
-    points = comparison.points()
-    figure = Figure(figsize=(11.0, 4.8), layout="constrained")
-    for axes, name in zip(figure.subplots(1, len(FRONTS)), FRONTS, strict=True):
-        for k, scheme in enumerate(comparison.schemes):
-            mine = [p for p in points if p["scheme"] == scheme.name and p[name] is not None]
-            mine.sort(key=lambda p: p["set_point"])
-            x, y = ([p[what] for p in mine] for what in (name, "electrical_W"))
-            dx, dy = ([p[f"{what}_ci95"] or 0.0 for p in mine] for what in (name, "electrical_W"))
-            axes.errorbar(
-                x, y, yerr=dy, xerr=dx, color=COLOURS[k], marker=MARKS[k], markersize=4.0, lw=1.0,
-                elinewidth=0.6, label=scheme.name,
-            )  # fmt: skip
-            own = [p for p in mine if p["set_point"] == scheme.set_point.values[0]]
-            axes.plot(
-                [p[name] for p in own], [p["electrical_W"] for p in own], MARKS[k], ms=9.0, mfc="none",
-                mec=COLOURS[k],
-            )  # fmt: skip
-        axes.set_xlabel(TITLES[name])
-        axes.set_ylabel("battery power [W]")
-        axes.set_ylim(bottom=0.0)
-        axes.set_xlim(left=0.0)
-        axes.spines[["top", "right"]].set_visible(False)
-        axes.set_title(f"{TRIED} m/s: down and left is better; ringed: own set point", fontsize=10.0)
-    figure.axes[0].legend(fontsize=8.0)
+    tasks, points = comparison.moved, comparison.points()
+    figure = Figure(figsize=(11.0, 4.6 * len(tasks)), layout="constrained")
+    grid = figure.subplots(len(tasks), len(FRONTS), squeeze=False)
+    for task, row in zip(tasks, grid, strict=True):
+        for axes, name in zip(row, FRONTS, strict=True):
+            for k, scheme in enumerate(comparison.schemes):
+                mine = [
+                    p
+                    for p in points
+                    if (p["scheme"], p["task"]) == (scheme.name, task) and p[name] is not None
+                ]
+                _line(axes, k, scheme, sorted(mine, key=lambda p: p["set_point"]), name)
+            axes.set_xlabel(TITLES[name])
+            axes.set_ylabel("battery power [W]")
+            axes.set_ylim(bottom=0.0)
+            axes.spines[["top", "right"]].set_visible(False)
+            axes.set_title(f"{task}: down and left is better", fontsize=10.0)
+    figure.axes[0].legend(fontsize=8.0, title="ringed: own set point; cross: some fell", title_fontsize=8.0)
     return figure
+
+
+def _line(axes: Axes, k: int, scheme: Scheme, points: Sequence[Mapping[str, Any]], name: str) -> None:
+    x, y = ([p[what] for p in points] for what in (name, "electrical_W"))
+    dx, dy = ([p[f"{what}_ci95"] or 0.0 for p in points] for what in (name, "electrical_W"))
+    look = {"color": COLOURS[k], "marker": MARKS[k], "ms": 4.0, "lw": 1.0, "elinewidth": 0.6}
+    axes.errorbar(x, y, yerr=dy, xerr=dx, label=scheme.name, **look)
+    for p in points:
+        if p["set_point"] == scheme.set_point.values[0]:
+            axes.plot(p[name], p["electrical_W"], "o", ms=10.0, mfc="none", mec=COLOURS[k])
+        if p["falls"]:
+            axes.plot(p[name], p["electrical_W"], "x", ms=10.0, color=COLOURS[k])
 
 
 def losses(comparison: Comparison, task: str) -> dict[str, dict[str, float]]:
