@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
-from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -49,43 +48,40 @@ def audit(solution: Solution) -> Energy:
     ``valves[*].E`` are allowed.
     """
     terms = solution.run.audit
-    lists = [
-        *terms.get("losses", {}).values(),
-        *(terms.get(name, ()) for name in ("input", "work", "stored")),
-    ]
-    solution.values(_paths(solution, chain.from_iterable(map(_listed, lists))))  # at once: that is faster
-    losses = {cause: total(solution, paths) for cause, paths in terms.get("losses", {}).items()}
-    put_in, work, stored = (total(solution, terms.get(name, ())) for name in ("input", "work", "stored"))
+    causes = terms.get("losses", {})
+    parts = {name: signed(solution, terms.get(name, ())) for name in ("input", "work", "stored")}
+    lost = {cause: signed(solution, paths) for cause, paths in causes.items()}
+    growth = gains(solution, {path for part in (*parts.values(), *lost.values()) for _, path in part})
+
+    def total(part: list[tuple[float, str]]) -> float:
+        return sum((sign * growth[path] for sign, path in part), 0.0)
+
+    losses = {cause: total(part) for cause, part in lost.items()}
+    put_in, work, stored = map(total, parts.values())
     rest = put_in - sum(losses.values()) - work - stored
     scale = abs(put_in) or sum(map(abs, [*losses.values(), work, stored])) or 1.0
     return Energy(put_in, losses, work, stored, rest / scale)
 
 
-def total(solution: Solution, terms: str | Iterable[str]) -> float:
-    """Sum of energies over the run, J."""
-    amount = 0.0
-    for term in _listed(terms):
-        sign = -1.0 if term.startswith("-") else 1.0
-        for path in _paths(solution, [term]):
-            amount += sign * gain(solution, path)
-    return amount
+def signed(solution: Solution, terms: str | Iterable[str]) -> list[tuple[float, str]]:
+    """Return sign and path of all that the terms name."""
+    return [
+        (-1.0 if term.startswith("-") else 1.0, path)
+        for term in ([terms] if isinstance(terms, str) else terms)
+        for path in solution.select(term.removeprefix("-"))
+    ]
 
 
-def _listed(terms: str | Iterable[str]) -> Iterable[str]:
-    return [terms] if isinstance(terms, str) else terms
-
-
-def _paths(solution: Solution, terms: Iterable[str]) -> list[str]:
-    return [path for term in terms for path in solution.select(term.removeprefix("-"))]
-
-
-def gain(solution: Solution, path: str) -> float:
-    """Growth of an energy over the run, or the integral of a power, J."""
-    unit, values = solution.unit(path), solution[path]
-    if unit == "J":
-        return float(values[-1] - values[0])
-    if unit == "W":
-        return float(np.trapezoid(values, solution.t))
-    raise ResultError(
-        f"{path} in the energy audit is in {unit}", remedy="name an energy in J or a power in W"
-    )
+def gains(solution: Solution, paths: Iterable[str]) -> dict[str, float]:
+    """Return the growth of each energy over the run, or the integral of a power, J."""
+    units = {path: solution.unit(path) for path in paths}
+    for path, unit in units.items():
+        if unit not in ("J", "W"):
+            raise ResultError(
+                f"{path} in the energy audit is in {unit}", remedy="name an energy in J or a power in W"
+            )
+    energies = [path for path, unit in units.items() if unit == "J"]
+    powers = [path for path, unit in units.items() if unit == "W"]
+    growth = np.diff(solution.ends(energies), axis=0).ravel()
+    worked = np.trapezoid(solution.values(powers), solution.t, axis=0)
+    return dict(zip([*energies, *powers], [*growth.tolist(), *np.atleast_1d(worked).tolist()], strict=True))

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
+import numpy as np
+
 from arthur_acausal.codegen.compiled import CompiledDAE
 from arthur_acausal.codegen.portable import reference
 from arthur_acausal.codegen.recovery import Source
@@ -50,6 +52,13 @@ class ComputedValues:
         x = self._trajectory
         y, yp = self._consistent() if self._recovery.needs_refinement(paths) else (x.y, x.yp)
         return self._recovery.observe(paths, x.t, y, yp, x.p, x.u, x.z, x.m)
+
+    def ends(self, paths: Sequence[str]) -> FloatArray:
+        """Values (2, len(paths)) at the first and the last time."""
+        x = self._trajectory
+        rows = Rows(x.t, x.y, x.yp, x.p, x.u, x.z, x.m).part(np.array([0, -1]))
+        y, yp = refine(self._dae, rows) if self._recovery.needs_refinement(paths) else (rows.y, rows.yp)
+        return self._recovery.observe(paths, rows.t, y, yp, rows.p, rows.u, rows.z, rows.m)
 
     @property
     def pieces(self) -> list[Piece]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import count, takewhile
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -132,6 +132,11 @@ class Solution:
         for index, path in enumerate(paths):
             block[:, index] = self._columns[path]
         return block
+
+    def ends(self, paths: Sequence[str]) -> FloatArray:
+        """Values (2, len(paths)) at the first and the last time, where nothing is computed for those in between."""
+        ends: Callable[[Sequence[str]], FloatArray] | None = getattr(self._values, "ends", None)
+        return self.values(paths)[[0, -1]] if ends is None else ends(paths)
 
     def _fetch(self, paths: list[str]) -> None:
         wanted = list(dict.fromkeys([*paths, *self._companions(paths)]))

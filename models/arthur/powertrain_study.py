@@ -28,6 +28,7 @@ def write_study(folder: Path, sweep: Sweeping, size: Size, schemes: Sequence[Sch
     _write_json(folder / "summary.json", comparison.summary())
     told = {
         "design": asdict(size),
+        "tuning": {scheme.name: scheme.tuning(accumulator=True) for scheme in schemes},
         "runs": len(comparison.results),
         "worst_closure": comparison.closure,
         "differences": comparison.differences(),

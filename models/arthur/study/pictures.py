@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = ("#333333", "#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00")
-MARKS = "osD^vPX"
+COLOURS = ("#333333", "#999999", "#0072B2", "#56B4E9", "#009E73", "#D55E00", "#CC79A7", "#E69F00")
+MARKS = "o*sD^vPX"
 TITLES = {"undershoot_bar_rms": "supply undershoot, rms [bar]", "force_error_rms": "force error, rms [N]"}
 
 
@@ -66,8 +66,10 @@ def fronts(comparison: Comparison) -> Figure:
 def _line(axes: Axes, k: int, scheme: Scheme, points: Sequence[Mapping[str, Any]], name: str) -> None:
     x, y = ([p[what] for p in points] for what in (name, "electrical_W"))
     dx, dy = ([p[f"{what}_ci95"] or 0.0 for p in points] for what in (name, "electrical_W"))
-    look = {"color": COLOURS[k], "marker": MARKS[k], "ms": 4.0, "lw": 1.0, "elinewidth": 0.6}
-    axes.errorbar(x, y, yerr=dy, xerr=dx, label=scheme.name, **look)
+    axes.errorbar(
+        x, y, yerr=dy, xerr=dx, label=scheme.name, color=COLOURS[k], marker=MARKS[k], ms=4.0, lw=1.0,
+        elinewidth=0.6,
+    )  # fmt: skip
     for p in points:
         if p["set_point"] == scheme.set_point.values[0]:
             axes.plot(p[name], p["electrical_W"], "o", ms=10.0, mfc="none", mec=COLOURS[k])

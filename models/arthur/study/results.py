@@ -12,15 +12,14 @@ from arthur_acausal import Solution, SolverOptions, translate
 from arthur_acausal.models.arthur.demand import Demand
 from arthur_acausal.models.arthur.dimensions import JOINT_NAMES
 from arthur_acausal.models.arthur.study.design import (
+    PARTS,
     TOLERANCE,
     Case,
     Size,
-    main_cases,
     pose,
     specification,
-    varied_cases,
 )
-from arthur_acausal.models.arthur.study.schemes import PRESENT, Scheme
+from arthur_acausal.models.arthur.study.schemes import PRESENT, Scheme, scheme_named
 from arthur_acausal.models.arthur.study.tasks import TASKS
 from arthur_acausal.models.arthur.study.trial import Trial
 
@@ -58,8 +57,8 @@ def results(schemes: Sequence[Scheme], size: Size, sweep: Sweeping, folder: Path
     """Carry out all runs of the schemes; what ``folder`` holds of an earlier call is not run again."""
     found: list[Result] = []
     for scheme in schemes:
-        for part, cases in (("main", main_cases(scheme, size)), ("varied", varied_cases(scheme, size))):
-            if cases:
+        for part, cases_of in PARTS.items():
+            if cases := cases_of(scheme, size):
                 demands = [str(recorded(case, folder / "demand")) for case in cases] if scheme.knows else []
                 table = sweep(
                     f"{scheme.name.replace(' ', '-')}-{part}", specification(scheme, cases, demands)
@@ -93,5 +92,6 @@ def run(case: Case) -> Solution:
     model = translate(Trial(scheme=PRESENT, terrain="slope" if task.slope else "flat"))
     start = {f"body.{joint}_phi": x for joint, x in zip(JOINT_NAMES, pose(case.seed), strict=True)}
     chosen = {"task": TASKS.index(task), "noise": case.seed, "duration": task.end, "shove.F": task.push}
+    chosen |= scheme_named(PRESENT).tuning(accumulator=True)
     options = SolverOptions(rtol=TOLERANCE, output_interval=0.001)
     return model.simulate(task.end + 0.1, parameters=chosen, start=start, options=options)

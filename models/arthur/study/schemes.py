@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
+from typing import cast
 
 from arthur_acausal import UsageError
 from arthur_acausal.models.arthur.demand import Demand
 from arthur_acausal.models.arthur.power_unit import PumpLaw
+from arthur_acausal.models.arthur.pump_tuning import tuned
 from arthur_acausal.models.arthur.quadruped_options import QuadrupedOptions
 
 RPM, BAR = 2 * pi / 60, 1e5
@@ -27,6 +29,7 @@ class SetPoint:
 
 
 SPEED = SetPoint("unit.control.w_0", "rpm", RPM, (5000.0, 4500.0, 4000.0, 3500.0, 3000.0))
+TUNED_SPEED = SetPoint("unit.control.w_0", "rpm", RPM, (2762.0,))
 PRESSURE = SetPoint("unit.P_des", "bar", BAR, (135.0, 125.0, 115.0, 100.0, 90.0))
 
 
@@ -36,25 +39,36 @@ class Scheme:
 
     Attributes
     ----------
-    name, says : as tables and figures have it, and in a few words; the name is the law's of the power unit.
+    name, says : as tables and figures have it, and in a few words. law : of the power unit, by default of that name.
     set_point : what it keeps. foresees : whether it uses the plan of the legs. models : whether it uses a model of the
         pump, which may err. knows : whether it knows the demand from a run before.
     """
 
-    name: PumpLaw
+    name: str
     says: str
     set_point: SetPoint = PRESSURE
+    law: PumpLaw | None = None
     foresees: bool = False
     models: bool = False
     knows: bool = False
 
     def options(self, accumulator: bool, known: Demand | None = None) -> QuadrupedOptions:
         """Return the hydraulics with this scheme."""
-        return QuadrupedOptions(pump=self.name, accumulator=accumulator, known=known)
+        return QuadrupedOptions(pump=self._law, accumulator=accumulator, known=known)
+
+    def tuning(self, accumulator: bool) -> dict[str, float]:
+        """Return the parameters that the search has found, the same for all of a scheme's runs, by path."""
+        found = {f"unit.control.{name}": x for name, x in tuned(self._law, accumulator).items()}
+        return {path: value for path, value in found.items() if path != self.set_point.path}
+
+    @property
+    def _law(self) -> PumpLaw:
+        return self.law or cast(PumpLaw, self.name)
 
 
 SCHEMES = (
     Scheme("constant speed", "turns at one speed; the relief valve keeps the pressure", SPEED),
+    Scheme("tuned speed", "turns at the one speed that the search has found", TUNED_SPEED, "constant speed"),
     Scheme("pressure", "PI on the supply pressure"),
     Scheme("feed-forward", "PI with feed-forward of the flow asked for now", models=True),
     Scheme("foresight", "PI with feed-forward of the flow that is planned", foresees=True, models=True),

@@ -9,7 +9,7 @@ import numpy as np
 from casadi import SX
 from numpy.typing import NDArray
 
-from arthur_acausal import Equations, Real, parameter, terminate, time, when
+from arthur_acausal import Equations, Real, der, parameter, terminate, time, variable, when
 from arthur_acausal.models.arthur.demand import Demand
 from arthur_acausal.models.arthur.locomotion.controller import Configuration
 from arthur_acausal.models.arthur.quadruped import Quadruped
@@ -50,8 +50,8 @@ class TrialWalking:
 class Trial(Quadruped):
     """The quadruped with a pump scheme at a task, audited; it ends after ``duration``.
 
-    It does not count how often the motor's current exceeds its limit, as each time would be an event, which takes
-    longer than all else where the sensors' noise reaches the current: `measures` tells for how long.
+    It does not count how often the motor's current exceeds its limit: each time would be an event, and where the
+    sensors' noise reaches the current they take longer than all else.
 
     Structural parameters: ``scheme`` by its name, ``accumulator``; ``demand``, a file with what is known.
     """
@@ -66,6 +66,9 @@ class Trial(Quadruped):
     noise: Real = parameter("1", default=0, min=0, description="seed of the sensors' noise")
     duration: Real = parameter("s", default=2.5, min=0.0)
     I_max: Real = parameter("A", default=1e3, min=0.0, description="out of reach: nothing is counted")
+    squares: Real = variable(
+        "N^2*s", start=0.0, fixed=True, nominal=1e3, description="of the forces' errors, integrated"
+    )
     t_push: Real = parameter("s", default=PUSHED, min=0.0, description="beginning of the push")
     push_duration: Real = parameter("s", default=PUSH_DURATION, min=0.0)
 
@@ -80,4 +83,5 @@ class Trial(Quadruped):
 
     def equations(self) -> Equations:
         yield from super().equations()
+        yield der(self.squares) == sum(actuator.control.e**2 for actuator in self.actuators)
         yield when(time() >= self.duration, terminate("the trial is over"))
