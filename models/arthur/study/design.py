@@ -42,7 +42,7 @@ class Size:
     moved: tuple[str, ...] = (VARIED, "fastest")
     horizons: tuple[float, ...] = HORIZONS
     errors: tuple[float, ...] = ERRORS
-    set_points: int = 5
+    set_points: int = 4
 
 
 QUICK = Size(

@@ -28,9 +28,9 @@ class SetPoint:
     values: tuple[float, ...]
 
 
-SPEED = SetPoint("unit.control.w_0", "rpm", RPM, (5000.0, 4500.0, 4000.0, 3500.0, 3000.0))
+SPEED = SetPoint("unit.control.w_0", "rpm", RPM, (5000.0, 4000.0, 3500.0, 3000.0))
 TUNED_SPEED = SetPoint("unit.control.w_0", "rpm", RPM, (2762.0,))
-PRESSURE = SetPoint("unit.P_des", "bar", BAR, (135.0, 125.0, 115.0, 100.0, 90.0))
+PRESSURE = SetPoint("unit.P_des", "bar", BAR, (135.0, 120.0, 105.0, 90.0))
 
 
 @dataclass(frozen=True, slots=True)
