@@ -13,6 +13,9 @@ import typer
 from arthur_acausal.cli.app import Debug
 from arthur_acausal.cli.failure import reported
 
+PRINTS = 60
+"""How often the best design is printed again, at most."""
+
 study = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="Studies: tables, figures and findings."
 )
@@ -29,13 +32,14 @@ def valves(
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Where the files go.")],
     designs: Annotated[
         int, typer.Option("--designs", metavar="N", min=0, help="Rotary valves to draw and try; 0: none.")
-    ] = 0,
+    ] = 200,
     debug: Debug = False,
 ) -> None:
     """Compare the rotary with the spool valve: sections 3 and 4 of the report."""
     from arthur_acausal.models.arthur.valve_study import write_study
+    from arthur_acausal.models.arthur.valves.trot import trots
 
-    typer.echo(write_study(output, _sweeping(output, designs) if designs else None))
+    typer.echo(write_study(output, _sweeping(output, designs) if designs else None, trots()))
 
 
 @study.command()
@@ -96,7 +100,15 @@ def _sweeping(folder: Path, samples: int) -> Callable[[str, Mapping[str, Any]], 
 
     def carry_out(name: str, specification: Mapping[str, Any]) -> Any:
         target = folder / f"{name}-{samples}"
-        found = sweep(model, stop_time=1.0, samples=samples, folder=target, resume=True, **specification)
+        found = sweep(
+            model,
+            stop_time=1.0,
+            samples=samples if name == "designs" else min(samples, PRINTS),
+            folder=target,
+            resume=True,
+            progress=sys.stdout.isatty(),
+            **specification,
+        )
         return found.table.to_dict("list")
 
     return carry_out

@@ -52,20 +52,23 @@ def figures(solution: Solution, payload: float) -> dict[str, Any]:
     return {"locomotion": walked, "cost_of_transport": energy / (weight * far) if moved else None}
 
 
-def valve_actuation(solution: Solution) -> dict[str, float]:
-    """Return what the drives of the robot's driven valves took, a valve: mean powers [W], and the largest torque [N m].
+def valve_actuation(solution: Solution, begin: float = 0.0) -> dict[str, float]:
+    """Return what the drives of the robot's driven valves took from ``begin`` [s] on, as means of a valve.
 
-    ``mechanical_W`` counts what the valves take, not what they give back; ``copper_W`` is that of the windings.
+    ``mechanical_W`` counts what the valves take, not what they give back; ``copper_W`` is that of the windings;
+    ``torque_max_Nm`` and ``opening_max``, over the port's width, are the largest of all.
     ``force_tracking_rms`` is the rms error of these cylinders' forces over the rms of the demand.
     """
+    counted = solution.t >= begin
+    t = solution.t[counted]
     drives = solution.select("actuators[*].valve.drive.P")
     actuators = [path.removesuffix(".valve.drive.P") for path in drives]
 
     def of_all(signal: str) -> FloatArray:
-        return solution.values([f"{actuator}.{signal}" for actuator in actuators])
+        return solution.values([f"{actuator}.{signal}" for actuator in actuators])[counted]
 
     def mean(power: FloatArray) -> float:
-        return float(np.trapezoid(power.mean(axis=1), solution.t) / np.ptp(solution.t))
+        return float(np.trapezoid(power.mean(axis=1), t) / np.ptp(t))
 
     error, demand = of_all("control.e"), of_all("F_d")
     return {

@@ -23,8 +23,15 @@ from arthur_acausal.models.arthur.valves.consequences import (
 )
 from arthur_acausal.models.arthur.valves.design import DESIGNS, design_numbers, printed_again, printed_numbers
 from arthur_acausal.models.arthur.valves.findings import findings
-from arthur_acausal.models.arthur.valves.pictures import deviation, figures, loop_figure, testbed_figure
+from arthur_acausal.models.arthur.valves.pictures import (
+    deviation,
+    figures,
+    loop_figure,
+    mission_figure,
+    testbed_figure,
+)
 from arthur_acausal.models.arthur.valves.strokes import GPM
+from arthur_acausal.models.arthur.valves.trot import trot_numbers
 from arthur_acausal.models.arthur.valves.variants import ROTARY, SPOOL, rotary_numbers, spool_numbers
 
 DEG = math.pi / 180
@@ -54,11 +61,14 @@ Table = Mapping[str, Sequence[Any]]
 Sweeping = Callable[[str, Mapping[str, Any]], Table]
 
 
-def write_study(folder: Path, sweep: Sweeping | None = None) -> str:
+def write_study(
+    folder: Path, sweep: Sweeping | None = None, walks: Mapping[str, Solution] | None = None
+) -> str:
     """Write rotary.csv, spool.csv, summary.json, findings.md and the figures; return what was found, in short.
 
     ``sweep``: carries out a sweep of `RotaryStroke`, given a name and what `arthur_acausal.sweep.sweep` takes, and
-    returns its table by columns; without it no designs are tried.
+    returns its table by columns; without it no designs are tried. ``walks``: what `trots` returns; without it the
+    robot's budget is figure 2-2's only.
     """
     folder.mkdir(parents=True, exist_ok=True)
     rotary_runs = {variant.name: variant.run() for variant in ROTARY}
@@ -82,6 +92,8 @@ def write_study(folder: Path, sweep: Sweeping | None = None) -> str:
         "actuation": {name: settled_errors(run) for name, run in loops.items()},
         "robot": of_the_robot(rotary_runs["default"], spool_runs["default"]),
     }
+    if walks is not None:
+        summary["trot"] = trot_numbers(walks)
     if sweep is not None:
         summary["designs"] = _designs(sweep, spool["two thirds at the load"]["W_to_0.5_gpm_uJ"] * 1e-6)
     _write_table(folder / "rotary.csv", rotary_runs["default"], ROTARY_COLUMNS)
@@ -90,12 +102,15 @@ def write_study(folder: Path, sweep: Sweeping | None = None) -> str:
     (folder / "findings.md").write_text(findings(summary), encoding="utf-8")
     drawn = figures(rotary_runs["default"], spool_runs["default"])
     drawn |= {"testbed": testbed_figure(bed), "figure-4-14": loop_figure(loops)}
+    if walks is not None:
+        drawn["mission-time"] = mission_figure(summary["trot"])
     for name, figure in drawn.items():
         figure.savefig(folder / f"{name}.png", dpi=150)
     r, s = rotary["default"], spool["default"]
+    written = sum(file.is_file() for file in folder.iterdir())
     return (
         f"work to open fully: rotary {r['W_no_jet_uJ']:.0f} uJ without the jets' torque, {r['W_with_jet_uJ']:.0f} uJ "
-        f"with it; spool {s['W_uJ']:.0f} uJ\nwrote {len(list(folder.iterdir()))} files to {folder}"
+        f"with it; spool {s['W_uJ']:.0f} uJ\nwrote {written} files to {folder}"
     )
 
 

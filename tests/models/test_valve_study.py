@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,8 +13,15 @@ import pytest
 from arthur_acausal import translate
 from arthur_acausal.models.arthur.powertrain import Powertrain
 from arthur_acausal.models.arthur.valve_study import ROTARY_COLUMNS, SPOOL_COLUMNS, write_study
-from arthur_acausal.models.arthur.valves.design import DESIGNS, design_numbers, printed_again, to_flow
+from arthur_acausal.models.arthur.valves.design import (
+    DESIGNS,
+    design_numbers,
+    printed_again,
+    printed_numbers,
+    to_flow,
+)
 from arthur_acausal.models.arthur.valves.direct import ValveKind
+from arthur_acausal.models.arthur.valves.further_findings import designs_text
 from arthur_acausal.models.arthur.valves.pictures import deviation
 from arthur_acausal.models.arthur.valves.strokes import GPM, RotaryStroke
 from arthur_acausal.models.arthur.valves.variants import ROTARY, rotary_numbers
@@ -117,18 +125,18 @@ def test_designs_are_tried_and_printed_again() -> None:
     (work, s) = (to_flow(run)[name] for name in ("W_with_jet", "s"))
     assert work * 1e6 == pytest.approx(rotary_numbers(run)["W_with_jet_to_0.5_gpm_uJ"], rel=1e-9)
     assert np.interp(s, run["s"], run["Q_A"]) == pytest.approx(0.5 * GPM, rel=1e-6)
-    table = sweep(RotaryStroke, stop_time=1.0, samples=4, workers=1, progress=False, **DESIGNS).table.to_dict(
-        "list"
-    )
+    how: dict[str, Any] = {"stop_time": 1.0, "workers": 1, "progress": False}
+    table = sweep(RotaryStroke, samples=4, **how, **DESIGNS).table.to_dict("list")
     assert set(table["status"]) == {"ok"}
     numbers = design_numbers(table, 1.0)
     assert numbers["win_with_jets"] == numbers["reach_the_flow"]
-    assert numbers["best_uJ"] == pytest.approx(min(table["to_flow.W_with_jet"]) * 1e6)
-    again = sweep(
-        RotaryStroke, stop_time=1.0, samples=2, workers=1, progress=False, **printed_again(numbers["best"])
-    ).table.to_dict("list")
+    assert numbers["best_uJ"] == pytest.approx(np.nanmin(table["to_flow.W_with_jet"]) * 1e6)
+    again = sweep(RotaryStroke, samples=2, **how, **printed_again(numbers["best"])).table.to_dict("list")
     assert set(again["status"]) == {"ok"}
     assert len(set(again["phi_error"])) == 2
+    told = designs_text(numbers | {"best_printed_again": printed_numbers(again["to_flow.W_with_jet"], 1.0)})
+    assert f"The best needs {numbers['best_uJ']:.0f} uJ" in told
+    assert "Printed 2 times" in told
 
 
 @pytest.mark.parametrize("kind", ["rotary", "spool"])

@@ -25,7 +25,14 @@ Shape = Literal[
     "house",
 ]
 """``square`` (3.32, 3.50); round ports that a straight edge (``chord``, after 3.11) or a round one (``lens``) uncovers;
-then the nine shapes of Table 4 in its order."""
+then the nine shapes of Table 4 in its order.
+
+Table 4 has names and apex angles, no dimensions. They fix the triangles, the diamond and the tear drops whose sides are
+tangents of the circle. The body of the house is a square: it gives figure 4-11's smaller deviation, 1/24. Three shapes
+need one dimension more each, assumed: where the sides of the concave and of the convex tear drop leave the circle,
+and how wide the tip of the tipped one is; below it is shape 7 (4.1.2: "otherwise identical"). Of equal area (4.1.2:
+"roughly equivalent") the nine are then 0.036 to 0.074 in wide, as the "approximately 0.04 to 0.07" of 4.1.2.
+"""
 
 APEX = {
     "tear drop 60": 60.0,
@@ -41,10 +48,13 @@ APEX = {
 """Apex angle [deg] of each shape of Table 4."""
 
 CONCAVE_TANGENT = radians(45.0)
-"""Where the concave tear drop's sides leave the circle, from the horizontal; assumed, Table 4 has only the apex."""
+"""Where the concave tear drop's sides leave the circle, from the horizontal: assumed, half way up the quarter circle.
+
+Below 24.6 deg they would not be concave. The convex one's leave it at 0, upright, assumed: the roundest side there is;
+from 26.6 deg on they would not be convex."""
 
 TIP = 0.2
-"""Share of the width that the tip of the tipped tear drop stands on; assumed."""
+"""Share of the width that the tip of the tipped tear drop stands on: assumed, 4.1.2 calls it narrow."""
 
 EDGE = 1.0 - 1e-12
 """Circles end here: the slope of sqrt(1 - t^2) at t = 1 has no value, and the area to 1 differs by 1e-18."""

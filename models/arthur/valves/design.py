@@ -17,29 +17,32 @@ TARGET_GPM = 0.5
 DESIGNS: dict[str, Any] = {
     "vary": {
         "r_c": "2 mm:5 mm",
-        "d_p": "0.5 mm:1.2 mm",
+        "d_p": "0.53 mm:0.7 mm",
         "delta_r": "3 um:20 um",
-        "mu_k": "0.005:0.1/log",
-        "offset": "0:0.6",
+        "mu_k": "0.002:0.1/log",
+        "offset": "0:0.3",
         "pressure_load": ["signed", "balanced"],
-        "phi_error": "normal(0, 0.05)",
+        "line": ["laminar", "turbulent"],
     },
     # The overlap stays as long as the case study's, 34 um; the cylinder is as high as its ports need.
     "derive": {"gap": "d_p / r_c + 68e-6 / r_c", "h": "10 / 3 * d_p"},
     "method": "lhs",
+    "tolerance": 1e-5,
     "output": {
         "trajectories": False,
         "reductions": ["arthur_acausal.models.arthur.valves.design:to_flow"],
     },
 }
-"""The sweep of `RotaryStroke`. ``phi_error`` [rad] stands for the printing's scatter (4.1.1): about 3 deg, assumed."""
+"""The sweep of `RotaryStroke`, as designed: luck in the printing comes after. Narrower ports than the case study's;
+friction from a needle bearing's on."""
+
+SCATTER = {"phi_error": "normal(0, 0.05)"}
+"""The printing's (4.1.1): the jet's angle [rad] is off by about 3 deg, assumed."""
 
 
 def printed_again(best: Mapping[str, Any]) -> dict[str, Any]:
     """Return the sweep of one design, as `design_numbers` gives the best, over the printing's scatter only."""
-    fixed = {name: value for name, value in best.items() if name != "phi_error"}
-    scatter = {"phi_error": DESIGNS["vary"]["phi_error"]}
-    return {**DESIGNS, "vary": scatter, "set": fixed, "method": "random"}
+    return {**DESIGNS, "vary": SCATTER, "set": dict(best), "method": "random"}
 
 
 def printed_numbers(work: Sequence[float], spool: float) -> dict[str, float]:
@@ -70,9 +73,10 @@ def design_numbers(table: Mapping[str, Sequence[Any]], spool: float) -> dict[str
     work = np.asarray(table["to_flow.W_with_jet"], dtype=float)
     reached = np.isfinite(work)
     wins = reached & (work < spool)
-    factors = [name for name in DESIGNS["vary"] if name != "pressure_load"]
-    values = {name: np.asarray(table[name], dtype=float) for name in factors}
+    words = ("pressure_load", "line")
+    values = {name: np.asarray(table[name], dtype=float) for name in DESIGNS["vary"] if name not in words}
     balanced = np.asarray([str(word) == "balanced" for word in table["pressure_load"]])
+    turbulent = np.asarray([str(word) == "turbulent" for word in table["line"]])
     best = int(np.nanargmin(work))
     return {
         "designs": len(work),
@@ -80,11 +84,13 @@ def design_numbers(table: Mapping[str, Sequence[Any]], spool: float) -> dict[str
         "win_with_jets": int(wins.sum()),
         "win_balanced": int((wins & balanced).sum()),
         "win_unbalanced": int((wins & ~balanced).sum()),
+        "win_turbulent": int((wins & turbulent).sum()),
+        "best_turbulent_uJ": float(np.nanmin(work[turbulent & reached], initial=np.inf)) * 1e6,
         "win_without_jets": int((np.asarray(table["to_flow.W_no_jet"], dtype=float) < spool).sum()),
         "spool_uJ": spool * 1e6,
         "best_uJ": float(work[best]) * 1e6,
         "best": {name: float(x[best]) for name, x in values.items()}
-        | {"pressure_load": str(table["pressure_load"][best])},
+        | {word: str(table[word][best]) for word in words},
         "rank_correlation": {name: correlation(x[reached], work[reached]) for name, x in values.items()},
         "median_of_winners": {
             name: float(np.median(x[wins])) if wins.any() else None for name, x in values.items()

@@ -11,6 +11,7 @@ from arthur_acausal.models.arthur.valves.further_findings import (
     designs_text,
     robot_text,
     testbed_text,
+    trot_text,
 )
 
 Numbers = Mapping[str, Mapping[str, Any]]
@@ -30,6 +31,7 @@ def findings(summary: Mapping[str, Any]) -> str:
         testbed_text(summary["testbed"]),
         actuation_text(summary["actuation"]),
         robot_text(summary["robot"]),
+        trot_text(summary.get("trot")),
         _shapes(summary["deviation_from_linear"]),
         _table("Rotary valve", rotary),
         _table("Spool valve", spool),

@@ -50,6 +50,10 @@ class Robot:
         """Return the battery's mean power [W]."""
         return self.battery * self.energy * 60.0 / self.minutes
 
+    def minutes_at(self, power: float) -> float:
+        """Return how long [min] the battery gives ``power`` [W]."""
+        return self.battery * self.energy * 60.0 / power
+
     def pilot_flow(self, psi: float) -> float:
         """Return the pilots' flow [gpm] at a supply pressure: an orifice's, as its square root."""
         return self.valves * self.pilot_gpm * sqrt(psi / self.pilot_psi)
@@ -74,8 +78,7 @@ class Robot:
 
         What is left of the budget grows with the mass: a constant cost of transport.
         """
-        left = (self.draw() - saved) * (1 + added / self.mass) + spent
-        return self.battery * self.energy * 60.0 / left
+        return self.minutes_at((self.draw() - saved) * (1 + added / self.mass) + spent)
 
 
 def robot_numbers(
