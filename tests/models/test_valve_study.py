@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from arthur_acausal import translate
+from arthur_acausal import UsageError, translate
 from arthur_acausal.models.arthur.powertrain import Powertrain
 from arthur_acausal.models.arthur.valve_study import ROTARY_COLUMNS, SPOOL_COLUMNS, write_study
 from arthur_acausal.models.arthur.valves.design import (
@@ -137,6 +137,9 @@ def test_designs_are_tried_and_printed_again() -> None:
     told = designs_text(numbers | {"best_printed_again": printed_numbers(again["to_flow.W_with_jet"], 1.0)})
     assert f"The best needs {numbers['best_uJ']:.0f} uJ" in told
     assert "Printed 2 times" in told
+    none = table | {"to_flow.W_with_jet": [np.nan] * 4}
+    with pytest.raises(UsageError, match=r"none of 4 rotary valves passes 0.5 gpm"):
+        design_numbers(none, 1.0)
 
 
 @pytest.mark.parametrize("kind", ["rotary", "spool"])
@@ -147,7 +150,7 @@ def test_the_powertrain_with_a_driven_valve_conserves_energy(kind: ValveKind) ->
         translate(Powertrain(n=1, valve=k), compile="never").simulate(
             0.21,
             inputs={"motor.V": 24.0, "valves[0].I": lambda t: 0.25 * (1 + np.tanh((t - 0.2) / 0.002))},
-            parameters={"valves[0].q_rated": 2e-3 / 60},
+            parameters={"valves[0].q_rated": 2e-3 / 60, "reservoir.b": 1e3},  # a tank that does not ring
         )
         for k in kinds
     )

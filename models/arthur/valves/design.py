@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from arthur_acausal import Solution
+from arthur_acausal import Solution, UsageError
 from arthur_acausal.models.arthur.valves.strokes import GPM
 
 TARGET_GPM = 0.5
@@ -72,6 +72,11 @@ def design_numbers(table: Mapping[str, Sequence[Any]], spool: float) -> dict[str
     """
     work = np.asarray(table["to_flow.W_with_jet"], dtype=float)
     reached = np.isfinite(work)
+    if not reached.any():
+        raise UsageError(
+            f"none of {len(work)} rotary valves passes {TARGET_GPM} gpm",
+            remedy="draw more of them: --designs 200",
+        )
     wins = reached & (work < spool)
     words = ("pressure_load", "line")
     values = {name: np.asarray(table[name], dtype=float) for name in DESIGNS["vary"] if name not in words}
@@ -99,6 +104,8 @@ def design_numbers(table: Mapping[str, Sequence[Any]], spool: float) -> dict[str
 
 
 def correlation(x: NDArray[np.float64], y: NDArray[np.float64]) -> float:
-    """Return the correlation of ranks."""
+    """Return the correlation of ranks; NaN of fewer than two."""
+    if len(x) < 2:
+        return float("nan")
     ranks = [np.argsort(np.argsort(values)).astype(float) for values in (x, y)]
     return float(np.corrcoef(ranks[0], ranks[1])[0, 1])
