@@ -115,7 +115,7 @@ class DirectValve(Component):
 class RotaryServoValve(DirectValve):
     """A `RotaryValve` on a `ValveDrive`: see `DirectValve`."""
 
-    valve: RotaryValve = RotaryValve(w_small=0.1)
+    valve: RotaryValve = RotaryValve(w_small=0.1, u_small=4.0)
 
     def build(self) -> None:
         self.drive = self.driven(self.valve, 2, self.valve.overlap(), self.valve.r_c)
@@ -128,7 +128,7 @@ class RotaryServoValve(DirectValve):
 class SpoolServoValve(DirectValve):
     """A `SpoolValve` on a `ValveDrive` by a ``lever`` [m], as long as the rotary one's radius: see `DirectValve`."""
 
-    valve: SpoolValve = SpoolValve()
+    valve: SpoolValve = SpoolValve(u_small=4.0)
     lever: Real = parameter("m", default=3.81e-3, min=0.0, description="assumed")
 
     def build(self) -> None:
