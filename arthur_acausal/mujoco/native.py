@@ -35,6 +35,9 @@ def library() -> ctypes.PyDLL | None:
         return None
 
 
+_Start: Any = ctypes.c_double * 0  # an array, of whatever size
+
+
 class _Body(ctypes.Structure):
     """Body of native.c."""
 
@@ -103,7 +106,8 @@ class NativeBody:
         return self._call(self._exact_derivative, inputs, jacobian)
 
     def _call(self, function: Any, inputs: FloatArray, out: FloatArray) -> bool:
-        if not (inputs.flags.c_contiguous and out.flags.c_contiguous):
+        try:  # quicker than to ask an array for its address
+            read, write = _Start.from_buffer(inputs), _Start.from_buffer(out)
+        except (TypeError, ValueError):  # read only, or no contiguous array
             return False
-        read, write = (ctypes.c_void_p(array.ctypes.data) for array in (inputs, out))
-        return not function(self._self, read, write)
+        return not function(self._self, ctypes.byref(read), ctypes.byref(write))
