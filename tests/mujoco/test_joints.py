@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from math import cos, pi, sin
+
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from arthur_acausal import Component, Equations, SolverOptions, connect, translate
 from arthur_acausal.components.translational import Fixed, ForceSource, Spring
@@ -14,6 +17,17 @@ BALL = """
 <mujoco>
   <worldbody>
     <body><joint name="ball" type="ball"/><geom type="sphere" size=".05" pos="0 0 -.4" mass="1.5"/></body>
+  </worldbody>
+</mujoco>"""
+
+POINT = '<inertial mass="1" pos="0 0 -1" diaginertia="1e-15 1e-15 1e-15"/>'
+DOUBLE_PENDULUM = f"""
+<mujoco>
+  <option gravity="0 0 -9.81"/>
+  <worldbody>
+    <body><joint name="upper" axis="0 -1 0"/>{POINT}
+      <body pos="0 0 -1"><joint name="lower" axis="0 -1 0"/>{POINT}</body>
+    </body>
   </worldbody>
 </mujoco>"""
 
@@ -109,3 +123,20 @@ def test_an_equality_constraint_holds_as_in_mujoco_s_own_steps() -> None:
     assert np.abs(ours - np.array(found)).max() < 3e-6
     assert ours[-1, 1] == pytest.approx(2 * ours[-1, 0], abs=2e-3)
     assert ours[-1, 0] == pytest.approx(3.0 / (2 + 4 * 2) * 0.3**2 / 2, rel=0.05)
+
+
+def lagrange(_: float, y: list[float]) -> list[float]:
+    """Two points of 1 kg on massless rods of 1 m: rates of both angles from the vertical, and of both speeds."""
+    a, b, u, v = y
+    mass = np.array([[2.0, cos(a - b)], [cos(a - b), 1.0]])
+    force = [-sin(a - b) * v**2 - 2 * 9.81 * sin(a), sin(a - b) * u**2 - 9.81 * sin(b)]
+    return [u, v, *np.linalg.solve(mass, force)]
+
+
+@pytest.mark.parametrize("rtol", [0.7e-10, 1e-10, 1.4e-10])
+def test_a_double_pendulum_from_the_horizontal_is_exact_to_a_hundred_times_the_tolerance(rtol: float) -> None:
+    model = translate(MujocoBody(mjcf=DOUBLE_PENDULUM, upper_phi=pi / 2))
+    solution = model.simulate(2.0, options=SolverOptions(rtol=rtol, intervals=2))
+    upper, lower, u, w = (solution[f"{n}_{x}"] for x in ("phi", "w") for n in ("upper", "lower"))
+    exact = solve_ivp(lagrange, (0, 2), [pi / 2, pi / 2, 0, 0], "DOP853", [1.0, 2.0], rtol=1e-13, atol=1e-14)
+    assert np.abs(np.array([upper, upper + lower, u, u + w])[:, 1:] - exact.y).max() < 1e-8
