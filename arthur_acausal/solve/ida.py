@@ -75,7 +75,7 @@ class Ida:
         self._n = dae.n
         self._roots, self._monitor = roots, monitor
         dense = self.linear_solver == "dense"
-        self._native = Native.of(dae, evaluator, roots, monitor, inputs.varying, dense)
+        self._native = Native.of(dae, evaluator, inputs, roots, monitor, dense)
         if self._native is not None:
             self._residual, jacobian = self._native.residual, self._native.jacobian
             self._eventsfn: Any = self._native.roots

@@ -61,7 +61,7 @@ typedef struct {
   Py_ssize_t externals_count;
   int64_t wanted; /* of the external functions */
   double *tally;  /* their evaluations, and seconds in them */
-  PyObject *slow, *progress, *prepare, *watch, *keep;
+  PyObject *slow, *progress, *prepare, *watch, *refresh, *keep;
 } Call;
 
 static double now(void) {
@@ -122,11 +122,15 @@ static PyObject *released(Arguments *a, int failed) {
   Py_RETURN_NONE;
 }
 
-/* Copy the arguments to where the generated functions read them. */
-static void take(Call *c, double t, const double *y, const double *yp) {
+/* Copy the arguments to where the generated functions read them; inputs that vary are Python's. -1: an exception. */
+static int take(Call *c, double t, const double *y, const double *yp) {
   *c->t = t;
   memcpy(c->y, y, (size_t)c->n * sizeof *y);
   memcpy(c->yp, yp, (size_t)c->n * sizeof *yp);
+  if (c->refresh == Py_None) return 0;
+  PyObject *done = PyObject_CallFunction(c->refresh, "d", t);
+  Py_XDECREF(done);
+  return done ? 0 : -1;
 }
 
 static void run(const Generated *g) { g->fn(g->arg, g->res, g->iw, g->w, 0); }
@@ -203,8 +207,7 @@ static int residual_at(Call *c, double t, const double *y, const double *yp, dou
   if (t != c->counts->t && attempt(c, t)) return -1;
   if (c->counts->halted == GOING) {
     c->counts->residuals += 1.0;
-    take(c, t, y, yp);
-    int refused = prepared(c);
+    int refused = take(c, t, y, yp) ? -1 : prepared(c);
     if (!refused) {
       run(c->generated);
       if (!all_finite(c->value, c->n)) refused = ask(c->slow);
@@ -224,7 +227,7 @@ static int jacobian_at(Call *c, double t, const double *y, const double *yp, dou
   Counts *k = c->counts;
   if (k->halted != GOING) return 0;
   k->jacobians += 1.0;
-  take(c, t, y, yp);
+  if (take(c, t, y, yp)) return halted_by_exception(c);
   if (cj * fabs(t) > STALLED) k->halted = STALLED_AT;
   if (fmod(k->jacobians, WATCHED) == 0.0) {
     int widened = ask(c->watch);
@@ -246,8 +249,7 @@ static int roots_at(Call *c, double t, const double *y, const double *yp, double
   int differs = 0, going = c->counts->halted == GOING;
   if (going) {
     c->counts->roots += 1.0;
-    take(c, t, y, yp);
-    going = !prepared(c);
+    going = !take(c, t, y, yp) && !prepared(c);
     if (!going && halted_by_exception(c)) return -1;
   }
   if (!going) {
@@ -307,6 +309,7 @@ static void release(PyObject *capsule) {
   Py_XDECREF(c->progress);
   Py_XDECREF(c->prepare);
   Py_XDECREF(c->watch);
+  Py_XDECREF(c->refresh);
   Py_XDECREF(c->keep);
   PyMem_Free(c);
 }
@@ -314,15 +317,15 @@ static void release(PyObject *capsule) {
 static double *address(unsigned long long a) { return (double *)(uintptr_t)a; }
 
 /* bind(kind, generated, n, m, t, y, yp, cj, value, counts, place, places, zero, modes, externals, count, wanted, tally,
-   slow, progress, prepare, watch, keep): addresses as integers, 0 for none; `keep` holds the arrays. */
+   slow, progress, prepare, watch, refresh, keep): addresses as integers, 0 for none; `keep` holds the arrays. */
 static PyObject *bind(PyObject *module, PyObject *args) {
   unsigned long long generated, t, y, yp, cj, value, counts, place, zero, modes, externals, tally;
   Py_ssize_t n, m, places, externals_count;
   int kind, wanted;
-  PyObject *slow, *progress, *prepare, *watch, *keep;
-  if (!PyArg_ParseTuple(args, "iKnnKKKKKKKnKKKniKOOOOO", &kind, &generated, &n, &m, &t, &y, &yp, &cj, &value, &counts,
+  PyObject *slow, *progress, *prepare, *watch, *refresh, *keep;
+  if (!PyArg_ParseTuple(args, "iKnnKKKKKKKnKKKniKOOOOOO", &kind, &generated, &n, &m, &t, &y, &yp, &cj, &value, &counts,
                         &place, &places, &zero, &modes, &externals, &externals_count, &wanted, &tally, &slow, &progress,
-                        &prepare, &watch, &keep))
+                        &prepare, &watch, &refresh, &keep))
     return NULL;
   Call *c = PyMem_Calloc(1, sizeof(Call));
   if (!c) return PyErr_NoMemory();
@@ -347,6 +350,7 @@ static PyObject *bind(PyObject *module, PyObject *args) {
   c->progress = Py_NewRef(progress);
   c->prepare = Py_NewRef(prepare);
   c->watch = Py_NewRef(watch);
+  c->refresh = Py_NewRef(refresh);
   c->keep = Py_NewRef(keep);
   PyObject *capsule = PyCapsule_New(c, "arthur.call", release);
   if (!capsule) return NULL;

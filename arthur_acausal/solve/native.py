@@ -25,6 +25,7 @@ from arthur_acausal.codegen.build import compile_c
 from arthur_acausal.codegen.calls import OUTPUTS, SLOPES, Calls, Prepared, Step
 from arthur_acausal.codegen.kernel import Kernel
 from arthur_acausal.solve.callbacks import Monitor, Roots, dense_places
+from arthur_acausal.solve.inputs import Inputs
 from arthur_acausal.solve.protocol import DAE, Evaluator
 
 LOGGER = logging.getLogger("arthur_acausal")
@@ -82,10 +83,18 @@ class Native:
     """
 
     def __init__(
-        self, module: Any, dae: DAE, evaluator: Evaluator, roots: Roots, monitor: Monitor, dense: bool
+        self,
+        module: Any,
+        dae: DAE,
+        evaluator: Evaluator,
+        inputs: Inputs,
+        roots: Roots,
+        monitor: Monitor,
+        dense: bool,
     ) -> None:
         self._module, self._dae, self.evaluator = module, dae, evaluator
         self._roots, self.monitor = roots, monitor
+        self._refresh = inputs.refresh if inputs.varying else None
         self._counts = np.zeros(len(FIELDS) + 3)
         place = dense_places(dae).astype(np.int64) if dense else None
         # Functions of Python around them, since the binding asks for their signatures, which takes 0.3 ms for one of
@@ -113,14 +122,13 @@ class Native:
 
     @classmethod
     def of(
-        cls, dae: DAE, evaluator: Evaluator, roots: Roots, monitor: Monitor, varying: bool, dense: bool
+        cls, dae: DAE, evaluator: Evaluator, inputs: Inputs, roots: Roots, monitor: Monitor, dense: bool
     ) -> Native | None:
-        """Return the callbacks in C, None where they cannot serve: functions that are not machine code, inputs
-        that vary."""
+        """Return the callbacks in C, None where functions are not machine code."""
         kernels = [evaluator.residual, evaluator.jacobian, *([evaluator.roots] if roots.index.size else [])]
-        able = dae.n and not varying and all(_is_compiled(kernel) for kernel in kernels)
+        able = dae.n and all(_is_compiled(kernel) for kernel in kernels)
         module = extension() if able else None
-        return None if module is None else cls(module, dae, evaluator, roots, monitor, dense)
+        return None if module is None else cls(module, dae, evaluator, inputs, roots, monitor, dense)
 
     def begin(self) -> None:
         """Take over what the monitor has counted."""
@@ -197,6 +205,7 @@ class Native:
             self.monitor.progress,
             function.prepare if steps else None,
             lambda: me._watch(),
+            self._refresh,
             keep,
         )
 

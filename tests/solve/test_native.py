@@ -6,6 +6,7 @@ import ctypes
 import gc
 import weakref
 from pathlib import Path
+from typing import Any
 
 import casadi
 import numpy as np
@@ -18,9 +19,12 @@ from arthur_acausal import (
     SimulationError,
     Solution,
     SolverOptions,
+    Table,
     compile_c,
     der,
+    if_else,
     parameter,
+    real_input,
     translate,
     variable,
 )
@@ -59,7 +63,11 @@ class Explosion(Component):
 
 
 def both(
-    model: Component, stop_time: float, options: SolverOptions, monkeypatch: pytest.MonkeyPatch
+    model: Component,
+    stop_time: float,
+    options: SolverOptions,
+    monkeypatch: pytest.MonkeyPatch,
+    inputs: dict[str, Any] | None = None,
 ) -> list[Solution | SimulationError]:
     translation = translate(model, compile="always")
     results: list[Solution | SimulationError] = []
@@ -75,7 +83,7 @@ def both(
         with monkeypatch.context() as patch:
             patch.setattr(native.Native, "of", of)
             try:
-                results.append(translation.simulate(stop_time, options=options))
+                results.append(translation.simulate(stop_time, options=options, inputs=inputs))
             except SimulationError as error:
                 results.append(error)
     assert all(used)
@@ -111,6 +119,29 @@ def test_same_bits_and_counts(
     ):
         assert getattr(c.statistics, name) == getattr(python.statistics, name), name
     assert c.statistics.non_finite_residuals == python.statistics.non_finite_residuals
+
+
+class Driven(Component):
+    """T x' = u v - x, with an event where x passes the half."""
+
+    T: Real = parameter("s", default=0.3)
+    u: Real = real_input("1")
+    v: Real = real_input("1")
+    x: Real = variable("1", start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield self.T * der(self.x) == self.u * self.v - if_else(self.x > 0.5, 0.5, 1.0) * self.x
+
+
+def test_inputs_that_vary(monkeypatch: pytest.MonkeyPatch) -> None:
+    jump = Table([0.0, 0.7, 0.7, 2.0], [0.0, 1.0, 3.0, 2.0])
+    inputs = {"u": jump, "v": lambda t: 1.0 + 0.2 * np.sin(9.0 * t)}
+    c, python = both(Driven(), 2.0, SolverOptions(), monkeypatch, inputs)
+    assert isinstance(c, Solution)
+    assert isinstance(python, Solution)
+    assert c.statistics.state_events > 0
+    assert c.statistics.residual_evaluations == python.statistics.residual_evaluations
+    np.testing.assert_array_equal(c.values(c.paths), python.values(python.paths))
 
 
 @pytest.mark.parametrize(
