@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from arthur_acausal import Solution
 from arthur_acausal.components.hydraulic.servo_valves import Shape, full_area, open_area
 from arthur_acausal.components.hydraulic.servo_valves.jets import von_mises
+from arthur_acausal.models.arthur.valves.actuation import settled_errors
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,6 +28,12 @@ OPENING = "valve opening ξ/$d_p$ [1]"
 def figures(rotary: Solution, spool: Solution) -> dict[str, Figure]:
     """Return the report's figures by their file names."""
     s, x = rotary["s"], spool["s"]
+    jets = float(s[rotary["T_jet"] > rotary["T_friction"]].min(initial=1.0))
+    leads = float(x[spool["F_steady"] > spool["F_friction"]].max(initial=0.0))
+    of_jets = rotary.final("W_jet") / rotary.final("W_with_jet")
+    of_flow = spool.final("W_steady") / spool.final("W")
+    needs = [run.final(name) for run, name in ((rotary, "W_no_jet"), (spool, "W"), (rotary, "W_with_jet"))]
+    claim = "needs less work only without its jets" if needs == sorted(needs) else "against the spool valve"
 
     def torque(label: str, name: str) -> Curve:
         return label, s, rotary[name] * 1e3
@@ -44,7 +51,7 @@ def figures(rotary: Solution, spool: Solution) -> dict[str, Figure]:
                 torque("fluid film", "T_viscous"),
             ],
             "torque [mN m]",
-            "Rotary valve: from two fifths of the opening the jets' torque exceeds the friction",
+            f"Rotary valve: from {jets:.0%} of the opening the jets' torque exceeds the friction",
         ),
         "figure-3-9": drawn(
             [
@@ -56,7 +63,7 @@ def figures(rotary: Solution, spool: Solution) -> dict[str, Figure]:
                 work("fluid film", "W_viscous"),
             ],
             "work from closed [µJ]",
-            "Rotary valve: the jets take half of the work",
+            f"Rotary valve: the jets take {of_jets:.0%} of the work",
         ),
         "figure-3-13": drawn(
             [
@@ -65,7 +72,7 @@ def figures(rotary: Solution, spool: Solution) -> dict[str, Figure]:
                 ("inertia", x, spool["F_inertia"]),
             ],
             "axial force [N]",
-            "Spool valve: the steady flow force leads up to four fifths of the opening",
+            f"Spool valve: the steady flow force leads up to {leads:.0%} of the opening",
         ),
         "figure-3-14": drawn(
             [
@@ -75,7 +82,7 @@ def figures(rotary: Solution, spool: Solution) -> dict[str, Figure]:
                 ("inertia", x, spool["W_inertia"] * 1e6),
             ],
             "work from the middle [µJ]",
-            "Spool valve: four fifths of the work go against the flow force",
+            f"Spool valve: {of_flow:.0%} of the work go against the flow force",
         ),
         "figure-3-15": drawn(
             [
@@ -84,7 +91,7 @@ def figures(rotary: Solution, spool: Solution) -> dict[str, Figure]:
                 work("rotary, without jets", "W_no_jet"),
             ],
             "work to open [µJ]",
-            "To open fully, the rotary valve needs less work only without its jets",
+            f"To open fully, the rotary valve {claim}",
         ),
         "figure-4-11": shapes(("tear drop", "house")),
     }
@@ -107,10 +114,8 @@ def jet_angles() -> Figure:
     axes = figure.axes[0]
     for limit in limits:
         axes.axhline(limit, color="0.6", linewidth=0.8, zorder=0.5)
-        axes.annotate(
-            f"{limit:.1f}°", (30, limit), (-4, -3), textcoords="offset points", ha="right", va="top"
-        )
-    axes.set_xlim(0, 30)
+        axes.annotate(f"{limit:.1f}°", (30, limit), (-4, 2), textcoords="offset points", ha="right")
+    axes.set(xlim=(0, 30), ylim=(15, 75))
     return figure
 
 
@@ -154,11 +159,12 @@ def testbed_figure(runs: Mapping[str, Solution]) -> Figure:
 def loop_figure(runs: Mapping[str, Solution]) -> Figure:
     """Figure 4-14: set and actual position over time, with both motors."""
     first = next(iter(runs.values()))
+    worst = max(abs(error) for error in settled_errors(runs["brushless"]))
     curves = [(name, run.t * 1e3, np.degrees(run["drive.phi"])) for name, run in runs.items()]
     return drawn(
         [("set", first.t * 1e3, np.degrees(first["drive.wanted"])), *curves],
         "position of the spool [deg]",
-        "A cogging motor rests up to 2.5° off; one without steps arrives",
+        f"A cogging motor rests up to {worst:.1f}° off; one without steps arrives",
         "time [ms]",
     )
 
