@@ -13,7 +13,7 @@ from casadi import SX, Function
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 from scipy.spatial import ConvexHull
 
 from arthur_acausal.components.hydraulic.servo_valves import APEX, Shape, full_area, open_area
@@ -33,10 +33,10 @@ def mirrored(right: Points) -> Points:
     return np.vstack([right, (right * [-1.0, 1.0])[::-1]])
 
 
-def ogive(half: float) -> tuple[float, Points]:
-    """Return the radius of an arc that rises upright from (1, 0) and meets the axis under ``half``, and its points."""
-    radius = brentq(lambda r: acos((r - 1) / r) - half, 1.5, 200.0)
-    return radius, arc((1 - radius, 0.0), radius, 0.0, half)
+def ogive(half: float) -> Points:
+    """Return the arc that rises upright from (1, 0) and meets the axis under ``half``."""
+    radius = float(root_scalar(lambda r: acos((r - 1) / r) - half, bracket=(1.5, 200.0), xtol=1e-12).root)
+    return arc((1 - radius, 0.0), radius, 0.0, half)
 
 
 def touching(half: float, gamma: float) -> Points:
@@ -53,7 +53,7 @@ def touching(half: float, gamma: float) -> Points:
         steps = np.column_stack([-np.sin(middle), np.cos(middle)]) * length
         return np.vstack([[cos(gamma), sin(gamma)], steps]).cumsum(axis=0)
 
-    return followed(brentq(lambda r: followed(r)[-1, 0], 0.1, 100.0))
+    return followed(float(root_scalar(lambda r: followed(r)[-1, 0], bracket=(0.1, 100.0), xtol=1e-12).root))
 
 
 @cache
@@ -75,9 +75,9 @@ def outline(shape: Shape) -> Points:
         side = arc((0.0, 0.0), 1.0, -pi / 2, radians(45.0))
         return mirrored(np.vstack([side, touching(half, radians(45.0))]))
     if shape == "convex tear drop":
-        return mirrored(np.vstack([bottom, ogive(half)[1]]))
+        return mirrored(np.vstack([bottom, ogive(half)]))
     if shape == "tipped convex tear drop":
-        _, side = ogive(radians(53.1) / 2)
+        side = ogive(radians(53.1) / 2)
         below = side[side[:, 0] > 0.2]
         foot = np.interp(-0.2, -side[:, 0], side[:, 1])
         tip = np.array([[0.2, foot], [0.0, foot + 0.2 / tan(half)]])
