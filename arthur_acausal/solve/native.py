@@ -117,7 +117,6 @@ class Native:
         self.roots: Callable[..., None] | None = None
         if watched is not None:
             self.roots = lambda t, y, yp, out: watched(t, y, yp, out)
-        self._attached: list[object] = []
         self._dense = dense
 
     @classmethod
@@ -151,8 +150,8 @@ class Native:
         """Let an engine whose memory is set up call the functions without the arrays that the binding would make."""
         sundials = _sundials() if self._dense else None
         if sundials is not None:
-            inner = engine._IDA__IDA
-            self._attached.append(self._module.attach(inner, *self._functions, *sundials))
+            # as an attribute it lives as long as the engine
+            engine.functions = self._module.attach(engine._IDA__IDA, *self._functions, *sundials)
 
     def _refuse(self) -> bool:
         """Whether the residual is refused; see `Monitor.refuse`."""
