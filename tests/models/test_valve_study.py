@@ -78,6 +78,19 @@ def test_works_are_the_integrals_of_the_torques(folder: Path) -> None:
         assert table[name][-1] == pytest.approx(np.trapezoid(torque, table["s"]) * arc, rel=1e-3)
 
 
+def test_radial_forces_by_hand(folder: Path) -> None:
+    """3.12 with the full flow coming in 3 ms; 3.15 mended for laminar flow; 3.5 on the closed valve."""
+    numbers = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["rotary"]["default"]
+    Q, way = numbers["Q_A_full_gpm"] * GPM, 2**0.5 * 1.27e-3 + 3.5814e-3
+    assert numbers["F_transient_max_N"] == pytest.approx(2 * 850 * Q / 3e-3 * way, rel=1e-6)
+    speed, mu = Q / (np.pi / 4 * 0.762e-3**2), 850 * 22e-6
+    wall = mu * 8 * speed / 0.762e-3  # of Poiseuille's flow
+    assert numbers["F_shear_max_N"] == pytest.approx(2 * wall * np.pi * 0.762e-3 * way, rel=1e-6)
+    closed = 0.762e-3**2 * 2885.5 * 6894.757 * (1 + (2 / 3) ** 2) ** 0.5
+    assert numbers["T_breakaway_mNm"] == pytest.approx(0.2 * 3.81 * closed, rel=1e-3)
+    assert numbers["F_transient_max_N"] < 0.1 * numbers["F_radial_least_N"]
+
+
 def test_the_claim_holds_only_without_the_jets(folder: Path) -> None:
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     rotary, spool = summary["rotary"]["default"], summary["spool"]["default"]

@@ -94,7 +94,8 @@ def _pressure(rotary: Numbers, s: Mapping[str, float]) -> str:
 
 
 def _open_points(rotary: Numbers, spool: Numbers) -> str:
-    turbulent, laminar = rotary["turbulent lines"]["Q_A_full_gpm"], rotary["default"]["Q_A_full_gpm"]
+    r = rotary["default"]
+    turbulent, laminar = rotary["turbulent lines"]["Q_A_full_gpm"], r["Q_A_full_gpm"]
     return (
         "## What the case studies hide\n\n"
         f"- The rotary valve's flow fully open, {laminar:.2f} gpm, is that of laminar lines at a Reynolds number near "
@@ -105,6 +106,10 @@ def _open_points(rotary: Numbers, spool: Numbers) -> str:
         "- 3.59's second term, mended, is as large on one land as the first; but the leakages on the two closed lands "
         f"pull opposite ways, and the rest is {spool['default']['F_shear_least_N']:.3f} N. It is not in the "
         "work.\n"
+        f"- The cylinder is pressed aside by at least {r['F_radial_least_N']:.0f} N of pressure; the flow's start "
+        f"(3.12) adds up to {r['F_transient_max_N']:.2f} N, the passages' walls {r['F_shear_max_N']:.2f} N: both left "
+        f"out of the friction. Static friction may hold the closed valve with {r['T_breakaway_mNm']:.1f} mN m (3.5, "
+        "coefficient 0.2).\n"
         "- The spool's geometry is a proxy: the report withholds the maker's. C_d, C_v, the area ratio and the lines' "
         "lengths are assumed.\n"
         f"- With the contraction in 3.48, as in 3.8, the spool needs {spool['with C_c']['W_uJ']:.0f} uJ."

@@ -52,6 +52,14 @@ class RotaryStroke(RotaryBody):
     u_2: Real = variable("m/s", start=100.0, nominal=100.0, description="speed in the outlets")
     Q_A: Real = variable("m^3/s", nominal=1e-5, display="L/min")
     Q_leak: Real = variable("m^3/s", nominal=1e-6, display="L/min", description="from P to R in the middle")
+    F_radial: Real = variable("N", nominal=10.0, description="of the pressures, 3.25")
+    F_transient: Real = variable(
+        "N", description="3.12, Q_A coming within t_res; radial, not in the friction"
+    )
+    F_shear: Real = variable(
+        "N", description="of the passages' walls, 3.15, 3.16; radial, not in the friction"
+    )
+    T_breakaway: Real = variable("N*m", nominal=1e-3, description="static friction of the closed valve, 3.5")
     T_friction: Real = variable("N*m", nominal=1e-3)
     T_viscous: Real = variable("N*m", nominal=1e-3)
     T_inertia: Real = variable("N*m", nominal=1e-3)
@@ -91,7 +99,11 @@ class RotaryStroke(RotaryBody):
         dtheta = self.overlap() + self.s * self.d_p / self.r_c
         alpha, w = 4 * dtheta / self.t_res**2, 2 * dtheta / self.t_res
         yield "leakage in the middle", self.Q_leak == self.land_leakage(SX(0)) * dp_SR
-        yield "friction", self.T_friction == self.friction_torque(self.radial_force(A_1, A_2, dp_SR, dp_AB))
+        yield self.F_radial == self.radial_force(A_1, A_2, dp_SR, dp_AB)
+        yield "friction", self.T_friction == self.friction_torque(self.F_radial)
+        yield "transient", self.F_transient == self.transient_force(self.Q_A / self.t_res)
+        yield "passages", self.F_shear == self.passage_shear(self.Q_A)
+        yield "breakaway", self.T_breakaway == self.breakaway_torque(dp_SR, dp_AB)
         yield "film", self.T_viscous == self.viscous_torque(alpha, w)
         yield "inertia", self.T_inertia == self.inertia() * alpha
         jets = side_1 * jet_force(rho, A_1, self.u_1, self.phi_jet_1, self.C_c)

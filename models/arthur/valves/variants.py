@@ -37,6 +37,7 @@ ROTARY = (
     Variant("default", RotaryStroke, "mended equations, square ports"),
     Variant("without C_c", RotaryStroke, "3.29 to 3.31 as printed", parameters={"C_c": 1.0}),
     Variant("3.25 as printed", RotaryStroke, "+ F_c2 sin", {"pressure_load": "printed"}),
+    Variant("as printed", RotaryStroke, "both", {"pressure_load": "printed"}, {"C_c": 1.0}),
     Variant("active ports only", RotaryStroke, "3.23", {"pressure_load": "active only"}),
     Variant("balanced passages", RotaryStroke, "re-routed, 3.2.5", {"pressure_load": "balanced"}),
     Variant("continuous jet angle", RotaryStroke, "3.7 begins where 3.6 ends", {"jet_angle": "continuous"}),
@@ -52,7 +53,7 @@ SPOOL = (
     Variant("two thirds at the load", SpoolStroke, "3.45", parameters={"load_share": 2 / 3}),
     Variant("constant flow", SpoolStroke, "0.5 gpm from s = 0.01, as printed", {"flow": "constant"}),
     Variant("continuous jet angle", SpoolStroke, "3.7 begins where 3.6 ends", {"jet_angle": "continuous"}),
-    *(Variant(shape, SpoolStroke, "shape of the ports", {"shape": shape}) for shape in ("chord", "house")),
+    *(Variant(shape, SpoolStroke, "shape of the ports", {"shape": shape}) for shape in SHAPES),
 )
 
 
@@ -67,6 +68,10 @@ def rotary_numbers(run: Solution) -> dict[str, float]:
         "s_at_0.5_gpm": needed,
         "T_friction_max_mNm": float(run["T_friction"].max()) * 1e3,
         "T_jet_max_mNm": float(np.abs(run["T_jet"]).max()) * 1e3,
+        "T_breakaway_mNm": run.initial("T_breakaway") * 1e3,
+        "F_radial_least_N": float(run["F_radial"].min()),
+        "F_transient_max_N": float(run["F_transient"].max()),
+        "F_shear_max_N": float(run["F_shear"].max()),
         "W_no_jet_uJ": W[-1] * 1e6,
         "W_no_jet_no_inertia_uJ": (W[-1] - inertia[-1]) * 1e6,
         "W_with_jet_uJ": (W[-1] + jet[-1]) * 1e6,
