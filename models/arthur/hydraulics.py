@@ -6,6 +6,7 @@ from typing import Any
 
 from arthur_acausal import Component, Equations, connect
 from arthur_acausal.components.blocks import EnergyMeter, Sum
+from arthur_acausal.components.choice import check_choice
 from arthur_acausal.components.hydraulic import Fluid
 from arthur_acausal.models.arthur.actuator import Actuator
 from arthur_acausal.models.arthur.dimensions import JOINTS, LEGS
@@ -34,6 +35,7 @@ class Hydraulics(Component):
     fluid: Fluid = Fluid()
 
     def build(self) -> None:
+        check_choice(self, "valve", ValveKind)
         choice = self.options
         self.fluid.cavitation = choice.cavitation
         self.unit = PowerUnit(
