@@ -62,6 +62,12 @@ def sweep(
     settings: Set = None,
     inputs: Input = None,
     starts: Start = None,
+    engine: Annotated[
+        str | None,
+        typer.Option(
+            metavar="auto|ida", help="ida: no run without events by the engine in C. [default: auto]"
+        ),
+    ] = None,
     rtol: Annotated[
         float | None, typer.Option(metavar="TOL", help="Relative tolerance; default 1e-6.")
     ] = None,
@@ -108,7 +114,14 @@ def sweep(
     from arthur_acausal.cli.sweep import Request
     from arthur_acausal.cli.sweep import sweep as carry_out
 
-    scalars = {"method": method, "samples": samples, "seed": seed, "stop-time": stop, "rtol": rtol}
+    scalars = {
+        "method": method,
+        "samples": samples,
+        "seed": seed,
+        "stop-time": stop,
+        "rtol": rtol,
+        "engine": engine,
+    }
     text, any_ok = carry_out(
         Request(
             model=model,

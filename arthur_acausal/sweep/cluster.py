@@ -9,7 +9,8 @@ from contextlib import ExitStack
 from typing import Any
 
 from arthur_acausal.errors import UsageError
-from arthur_acausal.sweep.execute import Outcome, execute
+from arthur_acausal.sweep.direct import execute_many
+from arthur_acausal.sweep.execute import Outcome
 from arthur_acausal.sweep.job import Content, Job, Values
 from arthur_acausal.sweep.spawn import apart
 from arthur_acausal.sweep.supply import Take
@@ -102,4 +103,4 @@ def work(content: Content, digest: str, values: Values, timeout: float | None) -
     with _ONE_AT_A_TIME:
         if digest not in _JOBS:
             _JOBS[digest] = Job.restored(*content)
-        return execute(_JOBS[digest], values, timeout)
+        return execute_many(_JOBS[digest], [values], timeout)[0]

@@ -18,6 +18,7 @@ from arthur_acausal.sweep.job import Job, Signal, StateSet, Values
 if TYPE_CHECKING:
     from arthur_acausal.codegen.compiled import CompiledDAE
     from arthur_acausal.result.solution import Solution
+    from arthur_acausal.solve.options import SolverOptions
 
 GOOD = ("ok", "terminated")  # of a run's status
 KEPT_SYSTEMS = 8  # that a worker has loaded at a time
@@ -86,7 +87,7 @@ def execute(job: Job, values: Values, timeout: float | None = None) -> Outcome:
         solution, status, error = _simulate(job, values, watch)
         if status == "timeout":
             error = f"stopped after {timeout:g} s of wall time"
-        outcome = _reduced(job, solution, status, error)
+        outcome = reduced(job, solution, status, error)
     except _WantedError as wanted:
         return Outcome("unfinished", wants=wanted.states)
     except ArthurError as failed:
@@ -105,17 +106,16 @@ def _timed(outcome: Outcome, wall_s: float, cpu_s: float) -> Outcome:
 def _simulate(job: Job, values: Values, watch: Callable[[float], None]) -> tuple[Solution | None, str, str]:
     from arthur_acausal.errors import SimulationError
     from arthur_acausal.result.simulated import Interrupted, run
-    from arthur_acausal.solve.options import SolverOptions
 
     loaded = system_of(job)
     inputs = {path: _signal(value) for path, value in {**job.inputs, **values.inputs}.items()}
     try:
         solution = run(
             loaded.dae,
-            _Described(job.description, job.audit),
+            described(job),
             start_time=job.start_time,
             stop_time=job.stop_time,
-            options=SolverOptions(rtol=job.tolerance, output_interval=job.resolution),
+            options=options_of(job),
             parameters={**job.parameters, **values.parameters},
             inputs=inputs,
             start={**job.start, **values.start},
@@ -129,6 +129,18 @@ def _simulate(job: Job, values: Values, watch: Callable[[float], None]) -> tuple
     if solution.run.status == "terminated":
         return solution, "terminated", solution.run.message
     return solution, "ok", ""
+
+
+def options_of(job: Job) -> SolverOptions:
+    """Return the solver's options."""
+    from arthur_acausal.solve.options import SolverOptions
+
+    return SolverOptions(rtol=job.tolerance, output_interval=job.resolution)
+
+
+def described(job: Job) -> object:
+    """Return what stands for the model, which is not here."""
+    return _Described(job.description, job.audit)
 
 
 def _signal(value: float | Signal) -> Any:
@@ -174,7 +186,8 @@ def system_of(job: Job) -> _Loaded:
     return _LOADED[job.digest]
 
 
-def _reduced(job: Job, solution: Solution | None, status: str, error: str) -> Outcome:
+def reduced(job: Job, solution: Solution | None, status: str, error: str) -> Outcome:
+    """Return what is kept of a solution."""
     if solution is None or not solution.t.size:
         return Outcome(status, error)
     columns: dict[str, float] = {}

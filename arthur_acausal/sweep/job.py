@@ -47,6 +47,7 @@ class Job:
     times : of the trajectories in place of ``interval``, s.
     trusted : modules of the user that sampled functions and reductions may come from.
     folders : where these modules are found.
+    batch : how many runs a worker is given at once; 1 where the engine for runs without events is not to make them.
     others : the compiled system for further sets of states, as far as runs have asked for them.
     """
 
@@ -66,6 +67,7 @@ class Job:
     times: tuple[float, ...] = ()
     trusted: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
+    batch: int = 1
     others: Mapping[StateSet, bytes] = field(default_factory=dict, repr=False)
 
     @cached_property

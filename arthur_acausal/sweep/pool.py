@@ -13,13 +13,14 @@ from multiprocessing.connection import Connection, wait
 from time import monotonic
 from typing import Any
 
-from arthur_acausal.sweep.execute import Outcome, execute, system_of
+from arthur_acausal.sweep.direct import execute_many
+from arthur_acausal.sweep.execute import Outcome, system_of
 from arthur_acausal.sweep.job import Job
 from arthur_acausal.sweep.spawn import apart
 from arthur_acausal.sweep.supply import Take
 from arthur_acausal.sweep.task import Task
 
-AHEAD = 2  # tasks that a worker has at a time, so that it need not wait for the next one
+AHEAD = 2  # batches of tasks that a worker has at a time, so that it need not wait for the next one
 GRACE = 2.0  # s that a run over its time has to end by itself and to give back what it has
 LOADING = 60.0  # s that a new worker may take before its first run begins
 
@@ -29,7 +30,7 @@ class _Worker:
     process: Any
     pipe: Connection
     known: set[str] = field(default_factory=set)  # digests of the jobs that it has
-    tasks: deque[Task] = field(default_factory=deque)  # the first one is running
+    batches: deque[list[Task]] = field(default_factory=deque)  # the first one is running
     since: float = 0.0  # when that began, or has to begin, s
 
 
@@ -60,37 +61,47 @@ class Crew:
         again: deque[Task] = deque()
         while True:
             self._hand_out(take, again)
-            if not again and not any(worker.tasks for worker in self._workers):
+            if not again and not any(worker.batches for worker in self._workers):
                 return
             yield from _collect(self._workers, again, self._timeout, self._retry)
 
     def _hand_out(self, take: Take, again: deque[Task]) -> None:
         """Give each worker its next tasks, those with the fewest first."""
         while True:
-            if len(self._workers) < self._size and all(w.tasks for w in self._workers):
-                task = again.popleft() if again else take()
-                if task is None:
-                    return
-                self._workers.append(_start())
-                _give(self._workers[-1], task)
-                self._send(self._workers[-1], task)
-                continue
-            worker = min(self._workers, key=lambda w: len(w.tasks), default=None)
-            if worker is None or len(worker.tasks) >= AHEAD:
+            more = len(self._workers) < self._size and all(w.batches for w in self._workers)
+            worker = None if more else min(self._workers, key=lambda w: len(w.batches), default=None)
+            if not more and (worker is None or len(worker.batches) >= AHEAD):
                 return
-            task = again.popleft() if again else take()
-            if task is None:
+            batch = self._next(take, again)
+            if not batch:
                 return
-            _give(worker, task)
-            self._send(worker, task)
+            if worker is None:
+                worker = _start()
+                self._workers.append(worker)
+            if not worker.batches:
+                worker.since = max(worker.since, monotonic())
+            worker.batches.append(batch)
+            self._send(worker, batch)
 
-    def _send(self, worker: _Worker, task: Task) -> None:
-        content = None
-        if task.job.digest not in worker.known:
-            worker.known.add(task.job.digest)
-            content = task.job.content
+    def _next(self, take: Take, again: deque[Task]) -> list[Task]:
+        """Return tasks of one job that go together; what is tried again, or has a time to keep, goes alone."""
+        batch: list[Task] = []
+        while (task := again.popleft() if again else take()) is not None:
+            if batch and (task.job is not batch[0].job or task.attempts):
+                again.appendleft(task)
+                break
+            batch.append(task)
+            if task.attempts or self._timeout is not None or len(batch) >= task.job.batch:
+                break
+        return batch
+
+    def _send(self, worker: _Worker, batch: list[Task]) -> None:
+        content, job = None, batch[0].job
+        if job.digest not in worker.known:
+            worker.known.add(job.digest)
+            content = job.content
         with suppress(OSError):  # it has just died: that shows when its pipe is read
-            worker.pipe.send((task.job.digest, content, task.values, self._timeout))
+            worker.pipe.send((job.digest, content, [task.values for task in batch], self._timeout))
 
 
 def _collect(
@@ -100,23 +111,24 @@ def _collect(
     handles: dict[Any, _Worker] = {w.pipe: w for w in crew}
     patience = None
     if timeout is not None:
-        due = min(w.since for w in crew if w.tasks) + timeout + GRACE if any(w.tasks for w in crew) else 0.0
+        busy = [w.since for w in crew if w.batches]
+        due = min(busy) + timeout + GRACE if busy else 0.0
         patience = max(0.05, due - monotonic())
     for pipe in wait(list(handles), patience):
         worker = handles[pipe]
         try:
-            outcome = worker.pipe.recv()
+            outcomes = worker.pipe.recv()
         except (EOFError, OSError):
             yield from _bury(crew, worker, again, retry, "its process died")
             continue
         worker.since = monotonic()
-        if outcome is not None:  # else a job has been loaded
-            yield worker.tasks.popleft(), outcome
+        if outcomes is not None:  # else a job has been loaded
+            yield from zip(worker.batches.popleft(), outcomes, strict=True)
     if timeout is not None:
-        for worker in [w for w in crew if w.tasks and monotonic() - w.since > timeout + GRACE]:
-            task = worker.tasks.popleft()
-            again.extend(worker.tasks)
-            worker.tasks.clear()
+        for worker in [w for w in crew if w.batches and monotonic() - w.since > timeout + GRACE]:
+            (task,) = worker.batches.popleft()
+            again.extend(waiting for batch in worker.batches for waiting in batch)
+            worker.batches.clear()
             _stop(worker)
             crew.remove(worker)
             yield task, Outcome("timeout", f"stopped after {timeout:g} s of wall time", wall_s=timeout)
@@ -128,15 +140,16 @@ def _bury(
     """Remove a dead worker; its run is tried again, those that waited behind it are as before."""
     crew.remove(worker)
     worker.process.join(1.0)
-    if worker.tasks:
-        task = worker.tasks.popleft()
-        again.extend(worker.tasks)
+    if worker.batches:
+        begun = worker.batches.popleft()
+        again.extend(waiting for batch in worker.batches for waiting in batch)
         code = worker.process.exitcode
-        if task.attempts < retry:
-            again.append(task.tried_again())
-        else:
-            told = f"{cause} (exit code {code}) in each of {task.attempts + 1} attempts"
-            yield task, Outcome("crashed", told)
+        for task in begun:
+            if task.attempts < retry:
+                again.append(task.tried_again())
+            else:
+                told = f"{cause} (exit code {code}) in each of {task.attempts + 1} attempts"
+                yield task, Outcome("crashed", told)
     _stop(worker)
 
 
@@ -147,12 +160,6 @@ def _start() -> _Worker:
         process.start()
     theirs.close()
     return _Worker(process, ours, since=monotonic() + LOADING)
-
-
-def _give(worker: _Worker, task: Task) -> None:
-    if not worker.tasks:
-        worker.since = max(worker.since, monotonic())
-    worker.tasks.append(task)
 
 
 def _stop(worker: _Worker) -> None:
@@ -179,7 +186,7 @@ def _serve(pipe: Connection) -> None:
                 jobs[digest] = Job.restored(*content)
                 system_of(jobs[digest])
                 pipe.send(None)
-            pipe.send(execute(jobs[digest], values, timeout))
+            pipe.send(execute_many(jobs[digest], values, timeout))
 
 
 def _end_with_parent() -> None:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from arthur_acausal.api import Translation
 
 FINER = 10  # instants that reductions look at, for each one whose trajectory is kept
+BATCH = 32  # runs that a worker is given at once, where one takes less than what surrounds it
 MOST_OUTPUTS = 24  # variables that are kept of a model that names none
 _PACKAGE = "arthur_acausal"
 
@@ -23,6 +24,7 @@ _PACKAGE = "arthur_acausal"
 def job_of(specification: Specification, translation: Translation, fixed: Values) -> Job:
     """Return what all runs of a structure share; ``fixed``: values that do not vary."""
     from arthur_acausal.result.run import plain
+    from arthur_acausal.solve.straight import fits
 
     output, model = specification.output, translation.model
     paths = list(translation.dae.recovery.paths)
@@ -48,6 +50,7 @@ def job_of(specification: Specification, translation: Translation, fixed: Values
         start=fixed.start,
         trusted=modules,
         folders=folders,
+        batch=BATCH if specification.engine == "auto" and fits(translation.dae) else 1,
     )
 
 

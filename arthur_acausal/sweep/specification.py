@@ -55,6 +55,8 @@ class Specification(_Section):
     ----------
     models : names as the command line takes them.
     stop_time, start_time : s.
+    engine : "auto": runs without events by the engine for these, wholly in C, where it fits; "ida": all by the
+        default one.
     tolerance : relative, of the integration.
     method : "grid" combines the values of all factors; "zip" takes the first of each, the second of each ...;
         "random", "lhs" (Latin hypercube) and "sobol" draw ``samples`` from the factors' ranges; "saltelli" makes
@@ -70,6 +72,7 @@ class Specification(_Section):
     models: Annotated[tuple[str, ...], Field(min_length=1)]
     stop_time: Seconds
     start_time: float = 0.0
+    engine: Literal["auto", "ida"] = "auto"
     tolerance: Annotated[float, Field(gt=0.0, lt=0.1)] = 1e-6
     method: Method = "grid"
     samples: Annotated[int, Field(ge=1)] | None = None

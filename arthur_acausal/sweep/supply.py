@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 from arthur_acausal.errors import ArthurError
-from arthur_acausal.sweep.execute import Outcome, execute
+from arthur_acausal.sweep.direct import execute_many
+from arthur_acausal.sweep.execute import Outcome
 from arthur_acausal.sweep.job import Job
 from arthur_acausal.sweep.task import Task
 
@@ -23,7 +24,7 @@ Start = Callable[[Take], Iterable[tuple[Task, Outcome]]]
 def here(take: Take) -> Iterator[tuple[Task, Outcome]]:
     """Carry out tasks in this process."""
     while (task := take()) is not None:
-        yield task, execute(task.job, task.values)
+        yield task, execute_many(task.job, [task.values])[0]
 
 
 def supplied(start: Start) -> Start:

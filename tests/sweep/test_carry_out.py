@@ -19,6 +19,7 @@ import pytest
 
 import arthur_acausal.sweep
 from arthur_acausal import SolverOptions, translate
+from arthur_acausal.codegen.kernel import compiler
 from arthur_acausal.errors import ResultError, UsageError
 from arthur_acausal.request.locate import find_model
 from arthur_acausal.sweep import store as stores
@@ -114,6 +115,21 @@ def test_inputs_structures_derived_and_fixed_values(tmp_path: Path) -> None:
     np.testing.assert_allclose(
         frame["final(x)"], frame["n"].astype(float) * np.exp(-1 / frame["tau"]), rtol=1e-4
     )
+
+
+@pytest.mark.skipif(compiler() is None, reason="no C compiler")
+def test_runs_without_events_go_by_the_engine_in_c(tmp_path: Path) -> None:
+    given: dict[str, Any] = {"vary": {"tau": "0.5:2:20", "x0": "1,3"}, "output": {"variables": ["x"]}}
+    for name, engine in (("a", "auto"), ("b", "ida")):
+        assert swept(tmp_path / name, engine=engine, **given).ok == 40
+    fast, slow = table(tmp_path / "a"), table(tmp_path / "b")
+    assert set(fast["engine"]) == {"straight"}
+    assert set(slow["engine"]) == {"ida"}
+    names = [name for name in fast.columns if name.endswith("(x)")]
+    np.testing.assert_allclose(fast[names], slow[names], rtol=1e-5)
+    np.testing.assert_allclose(fast["final(x)"], fast["x0"] * np.exp(-1.0 / fast["tau"]), rtol=1e-5)
+    a, b = (arthur_acausal.sweep.open(tmp_path / name).dataset["x"].values for name in "ab")
+    np.testing.assert_allclose(a, b, atol=1e-5)
 
 
 def test_structures_of_parts(tmp_path: Path) -> None:
