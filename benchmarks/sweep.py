@@ -16,6 +16,7 @@ from __future__ import annotations
 import json
 import os
 import random
+import resource
 import shutil
 import signal
 import statistics
@@ -216,10 +217,12 @@ def many(quick: bool) -> dict[str, Any]:
             found["peak_rss_mb"][str(runs)] = filled["peak_rss_mb"]
         opened = fresh_json(["-c", OPENED, str(folder)])
         page = Path(name) / "report.html"
-        begin = time.perf_counter()
+        begin, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
         command = "from arthur_acausal.cli import main; main()"
         fresh_process(["-c", command, "report", str(folder), "-o", str(page)])
-        found |= opened | {"report_s": time.perf_counter() - begin, "report_mb": page.stat().st_size / 1e6}
+        took, after = time.perf_counter() - begin, resource.getrusage(resource.RUSAGE_CHILDREN)
+        cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        found |= opened | {"report_s": took, "report_cpu_s": cpu, "report_mb": page.stat().st_size / 1e6}
     return found
 
 
@@ -241,10 +244,11 @@ import pandas, xarray, zarr
 with contextlib.suppress(ImportError):
     import dask.array
 import arthur_acausal.sweep
-imported = time.perf_counter()
+imported, cpu = time.perf_counter(), time.process_time()
 found = arthur_acausal.sweep.open(sys.argv[1])
 found.table, found.dataset
-print(json.dumps({"import_s": imported - begin, "open_s": time.perf_counter() - imported}))
+times = {"open_s": time.perf_counter() - imported, "open_cpu_s": time.process_time() - cpu}
+print(json.dumps({"import_s": imported - begin, **times}))
 """
 
 KILLED = """
