@@ -88,9 +88,9 @@ def parse(path: Path, content: bytes) -> netcdf_file:
         raise ResultError(f"{path} is no solution: it is {what}", remedy=REMEDY)
     try:
         dataset = netcdf_file(io.BytesIO(content), "r", mmap=False)
+        found = text(dataset, "format") if hasattr(dataset, "format") else ""
     except Exception as error:  # SciPy's reader checks nothing: a damaged header raises whatever it runs into
         raise damaged(path, f"{type(error).__name__}: {error}") from error
-    found = text(dataset, "format") if hasattr(dataset, "format") else ""
     if found != FORMAT:
         raise ResultError(
             f"{path} is a NetCDF file, but no solution of this version",
