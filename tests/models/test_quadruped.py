@@ -12,7 +12,7 @@ import pytest
 from arthur_acausal import Solution, SolverOptions, Translation, translate
 from arthur_acausal.models.arthur.budget import body_energy, budget
 from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimensions
-from arthur_acausal.models.arthur.figures import attitude, contact_speeds
+from arthur_acausal.models.arthur.figures import attitude, contact_speeds, slip_share, spans, tracking
 from arthur_acausal.models.arthur.mjcf import quadruped_mjcf
 from arthur_acausal.models.arthur.quadruped import Quadruped
 from arthur_acausal.models.arthur.quadruped_picture import LOSSES, total
@@ -38,6 +38,12 @@ def standing() -> Solution:
 @cache
 def trotting() -> Translation:
     return translate(Quadruped(gait="trot", v_x=0.5, audit=True))
+
+
+@cache
+def trotted() -> Solution:
+    """The first steps of a trot."""
+    return trotting().simulate(0.3, options=SolverOptions(rtol=1e-3, intervals=600))
 
 
 def initial(name: str) -> float:
@@ -83,13 +89,27 @@ def test_energy() -> None:
 
 def test_the_rigid_bodies_balance() -> None:
     """Work of the cylinders = growth of MuJoCo's energies + what contacts take, in the first steps of a trot."""
-    run = trotting().simulate(0.3, options=SolverOptions(rtol=1e-3, intervals=600))
+    run = trotted()
     energy = body_energy(run)
     assert abs(energy.closure) < 0.01
     assert energy.contact_J > 0.01 * energy.positive_J
     assert energy.work_J == pytest.approx(run.energy().work_J, abs=0.01 * energy.positive_J)
     (cascade,) = budget({"trot": run}).axes
     assert len(cascade.patches) == len(cascade.get_yticklabels()) > 8
+
+
+def test_forces_follow_and_feet_stand_in_a_trot() -> None:
+    """Half of what may be: within 5 % of the demand, while legs lift and swing, and next to no slip."""
+    run = trotted()
+    always = run.t >= 0.0
+    touch = run.values([f"body.sensor_{leg}_touch" for leg in LEGS])
+    assert (touch == 0.0).any()
+    assert 0.01 < tracking(run, always) < 0.05  # type: ignore[operator]
+    assert slip_share(run, always) < 0.025
+
+
+def test_rows_count_by_their_time() -> None:
+    assert spans(np.array([0.0, 1.0, 1.0, 3.0])).ravel() == pytest.approx([0.5, 0.5, 1.0, 1.0])
 
 
 def test_unknowns() -> None:
