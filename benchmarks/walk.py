@@ -108,6 +108,7 @@ def main() -> None:
     command_line.add_argument("--quick", action="store_true", help=f"{QUICK:g} s each")
     command_line.add_argument("--seconds", type=float, help="longest duration of each scenario")
     command_line.add_argument("--seeds", type=int, default=1, help="of noise and start, 1 by default")
+    command_line.add_argument("--first-seed", type=int, default=0, metavar="N")
     command_line.add_argument("--rtol", type=float, default=1e-4)
     command_line.add_argument("--workers", type=int, default=1, help="processes")
     command_line.add_argument("--log", type=Path, metavar="FILE", help="keep runs in it, do none again")
@@ -117,11 +118,12 @@ def main() -> None:
     arguments = command_line.parse_args()
     chosen = [s for s in SCENARIOS if not s.lag and any(text in s.name for text in arguments.only)]
     chosen = [shortened(scenario, arguments.seconds, arguments.quick) for scenario in chosen]
-    jobs = [(scenario, seed, arguments.rtol) for seed in range(arguments.seeds) for scenario in chosen]
+    seeds = range(arguments.first_seed, arguments.first_seed + arguments.seeds)
+    jobs = [(scenario, seed, arguments.rtol) for seed in seeds for scenario in chosen]
     rows = measure(jobs, arguments.workers, arguments.log)
     if arguments.json:
         found = [asdict(row) | {"met": row.met} for row in rows]
-        print(json.dumps({"rtol": arguments.rtol, "seeds": arguments.seeds, "runs": found}))
+        print(json.dumps({"rtol": arguments.rtol, "seeds": list(seeds), "runs": found}))
     else:
         show_all([[row for row in rows if row.scenario == s.name] for s in chosen], arguments.rtol)
 
