@@ -204,6 +204,8 @@ class HybridRun:
             if first_step < FIRST_STEP_LEAST * (stop - float(times[0])):
                 break
             stretch = method(times, y, yp, first_step, store_steps)
+        if not stretch.t.size:  # the evaluator holds what a step has tried
+            self._evaluator.y[:], self._evaluator.yp[:] = y, yp
         return stretch
 
     def _adapt_tolerances(self) -> None:

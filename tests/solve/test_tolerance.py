@@ -13,11 +13,15 @@ from arthur_acausal import (
     SimulationError,
     SolverOptions,
     der,
+    discrete,
     parameter,
+    pre,
     time,
     translate,
     variable,
+    when,
 )
+from arthur_acausal.solve.tolerance import Tolerances
 
 
 class Oscillator(Component):
@@ -59,3 +63,30 @@ def test_tolerances_that_are_given_stay() -> None:
     options = SolverOptions(rtol=1e-6, atol={"b": 1e-8}, max_steps=5000)
     with pytest.raises(SimulationError, match="the error of b dominates"):
         translate(WithDifference(K=1e6)).simulate(0.5, options=options)
+
+
+class Ticking(Oscillator):
+    """And an algebraic unknown, and ticks that change no equation: IDA goes on over them, a step or so a tick."""
+
+    b: Real = variable("1")
+    period: Real = parameter("s", default=0.01)
+    next: Real = discrete("s", start=0.01)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.b + tanh(self.b) == self.x
+        yield when(time() >= pre(self.next), self.next == pre(self.next) + self.period)
+
+
+def test_new_tolerances_in_between_leave_the_states_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A run that stops to take new ones goes on from its last good values, not from those that a step has tried."""
+    stops = []
+
+    def widen(_: Tolerances) -> bool:
+        stops.append(1)
+        return True
+
+    monkeypatch.setattr(Tolerances, "widen", widen)
+    solution = translate(Ticking()).simulate(10.0, tolerance=1e-6)
+    assert len(stops) > 5
+    assert np.abs(solution["x"] - np.cos(solution.t)).max() < 1e-4
