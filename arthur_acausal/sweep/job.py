@@ -47,7 +47,7 @@ class Job:
     times : of the trajectories in place of ``interval``, s.
     trusted : modules of the user that sampled functions and reductions may come from.
     folders : where these modules are found.
-    batch : how many runs a worker is given at once; 1 where the engine for runs without events is not to make them.
+    batch : how many runs a worker is given at once at most; 1 where they are not for the engine without events.
     others : the compiled system for further sets of states, as far as runs have asked for them.
     """
 

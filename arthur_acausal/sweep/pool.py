@@ -21,6 +21,7 @@ from arthur_acausal.sweep.supply import Take
 from arthur_acausal.sweep.task import Task
 
 AHEAD = 2  # batches of tasks that a worker has at a time, so that it need not wait for the next one
+QUICK, SLOW = 0.05, 0.2  # s that a batch takes below which the next one is larger, above which it is smaller
 GRACE = 2.0  # s that a run over its time has to end by itself and to give back what it has
 LOADING = 60.0  # s that a new worker may take before its first run begins
 
@@ -31,6 +32,7 @@ class _Worker:
     pipe: Connection
     known: set[str] = field(default_factory=set)  # digests of the jobs that it has
     batches: deque[list[Task]] = field(default_factory=deque)  # the first one is running
+    size: int = 1  # of its next batch at most
     since: float = 0.0  # when that began, or has to begin, s
 
 
@@ -72,7 +74,7 @@ class Crew:
             worker = None if more else min(self._workers, key=lambda w: len(w.batches), default=None)
             if not more and (worker is None or len(worker.batches) >= AHEAD):
                 return
-            batch = self._next(take, again)
+            batch = self._next(take, again, 1 if worker is None else worker.size)
             if not batch:
                 return
             if worker is None:
@@ -83,15 +85,15 @@ class Crew:
             worker.batches.append(batch)
             self._send(worker, batch)
 
-    def _next(self, take: Take, again: deque[Task]) -> list[Task]:
-        """Return tasks of one job that go together; what is tried again, or has a time to keep, goes alone."""
+    def _next(self, take: Take, again: deque[Task], size: int) -> list[Task]:
+        """Return up to ``size`` tasks of one job; what is tried again, or has a time to keep, goes alone."""
         batch: list[Task] = []
         while (task := again.popleft() if again else take()) is not None:
             if batch and (task.job is not batch[0].job or task.attempts):
                 again.appendleft(task)
                 break
             batch.append(task)
-            if task.attempts or self._timeout is not None or len(batch) >= task.job.batch:
+            if task.attempts or self._timeout is not None or len(batch) >= min(size, task.job.batch):
                 break
         return batch
 
@@ -123,6 +125,8 @@ def _collect(
             continue
         worker.since = monotonic()
         if outcomes is not None:  # else a job has been loaded
+            took, size = sum(outcome.wall_s for outcome in outcomes), len(outcomes)
+            worker.size = 2 * size if took < QUICK else max(1, size // 2) if took > SLOW else size
             yield from zip(worker.batches.popleft(), outcomes, strict=True)
     if timeout is not None:
         for worker in [w for w in crew if w.batches and monotonic() - w.since > timeout + GRACE]:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from arthur_acausal.api import Translation
 
 FINER = 10  # instants that reductions look at, for each one whose trajectory is kept
-BATCH = 32  # runs that a worker is given at once, where one takes less than what surrounds it
+BATCH = 32  # runs that a worker is given at once at most, where one takes less than what surrounds it
 MOST_OUTPUTS = 24  # variables that are kept of a model that names none
 _PACKAGE = "arthur_acausal"
 
