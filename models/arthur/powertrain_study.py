@@ -5,21 +5,27 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import asdict
+from importlib.metadata import version
 from pathlib import Path
 
 from arthur_acausal.models.arthur.study.comparison import Comparison
-from arthur_acausal.models.arthur.study.design import Size
+from arthur_acausal.models.arthur.study.design import TOLERANCE, Size
 from arthur_acausal.models.arthur.study.findings import findings
 from arthur_acausal.models.arthur.study.pictures import figures
 from arthur_acausal.models.arthur.study.results import Sweeping, results
 from arthur_acausal.models.arthur.study.schemes import SCHEMES, Scheme
-from arthur_acausal.models.arthur.study.tables import main_table, write_rows, write_runs
+from arthur_acausal.models.arthur.study.tables import (
+    main_table,
+    write_rows,
+    write_runs,
+    write_study_table,
+)
 
 
 def write_study(folder: Path, sweep: Sweeping, size: Size, schemes: Sequence[Scheme] = SCHEMES) -> str:
     """Carry out the study, write its files into ``folder``, and return what was found, in short.
 
-    summary.json: scheme -> task -> measure -> mean, ci95, n. comparisons.json: differences paired by seed, what
+    summary.json: scheme -> task -> measure -> mean, ci95, n; study.csv the same. comparisons.json: differences paired by seed, what
     foresight takes at equal sag, runs that fell or failed, the design. runs.csv: every run. pareto.csv and the
     figures; table.md; findings.md.
     """
@@ -39,6 +45,7 @@ def write_study(folder: Path, sweep: Sweeping, size: Size, schemes: Sequence[Sch
     _write_json(folder / "comparisons.json", told)
     write_runs(folder / "runs.csv", comparison)
     write_rows(folder / "pareto.csv", comparison.points())
+    write_study_table(folder / "study.csv", comparison, _about(size, schemes))
     (folder / "table.md").write_text(main_table(comparison) + "\n", encoding="utf-8")
     (folder / "findings.md").write_text(findings(comparison), encoding="utf-8")
     for name, figure in figures(comparison).items():
@@ -48,6 +55,16 @@ def write_study(folder: Path, sweep: Sweeping, size: Size, schemes: Sequence[Sch
         f"{len(comparison.results)} runs, {bad} of them fell or failed; energy closes within {comparison.closure:.1e}\n"
         f"{main_table(comparison)}\nwrote {folder}"
     )
+
+
+def _about(size: Size, schemes: Sequence[Scheme]) -> list[str]:
+    """Return how the numbers were made: seeds, schemes, tolerance, versions."""
+    packages = ("arthur-acausal", "casadi", "mujoco", "numpy", "scikit-sundae")
+    return [
+        f"arthur study powertrain --seeds {size.seeds} --few {size.few}; seeds from 0; rtol {TOLERANCE:g}",
+        f"schemes: {', '.join(scheme.name for scheme in schemes)}",
+        ", ".join(f"{name} {version(name)}" for name in packages),
+    ]
 
 
 def _write_json(file: Path, value: object) -> None:

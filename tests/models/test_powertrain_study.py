@@ -209,6 +209,18 @@ def test_the_points_say_what_nothing_is_better_than(folder: Path) -> None:
     }
 
 
+def test_the_table_says_how_it_was_made(folder: Path) -> None:
+    lines = (folder / "study.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "# arthur study powertrain --seeds 3 --few 2; seeds from 0; rtol 0.001"
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    (row,) = (
+        row
+        for row in rows
+        if (row["scheme"], row["task"], row["measure"]) == ("constant speed", "stand", "electrical_W")
+    )
+    assert (float(row["mean"]), row["n"]) == (2010.0, "3")
+
+
 def test_a_scheme_without_runs_at_a_task_has_no_estimate() -> None:
     comparison = Comparison([result("foresight", 0, electrical_W=900.0)])
     assert comparison.mean("pressure", "trot 0.5", "electrical_W").mean is None

@@ -52,6 +52,20 @@ def write_rows(file: Path, rows: Sequence[Mapping[str, Any]]) -> None:
             table.writerow({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()})
 
 
+def write_study_table(file: Path, comparison: Comparison, about: Sequence[str]) -> None:
+    """Write the main table as numbers, a row for each scheme, task and measure, below lines that say how it was made."""
+    rows = [
+        {"scheme": scheme, "task": task, "measure": measure, **numbers}
+        for scheme, tasks in comparison.summary().items()
+        for task, told in tasks.items()
+        for measure, numbers in told.items()
+        if measure in (*COLUMNS, "falls") and numbers["mean"] is not None
+    ]
+    write_rows(file, rows)
+    head = "".join(f"# {line}\n" for line in about)
+    file.write_text(head + file.read_text(encoding="utf-8"), encoding="utf-8")
+
+
 def main_table(comparison: Comparison) -> str:
     """Return the main table as Markdown: a section a task, a line a scheme."""
     head = "| scheme | runs | falls | " + " | ".join(title for title, _ in COLUMNS.values()) + " |"
