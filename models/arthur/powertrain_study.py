@@ -8,6 +8,7 @@ from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 
+from arthur_acausal import __version__
 from arthur_acausal.models.arthur.study.comparison import Comparison
 from arthur_acausal.models.arthur.study.design import TOLERANCE, Size
 from arthur_acausal.models.arthur.study.findings import findings
@@ -25,9 +26,9 @@ from arthur_acausal.models.arthur.study.tables import (
 def write_study(folder: Path, sweep: Sweeping, size: Size, schemes: Sequence[Scheme] = SCHEMES) -> str:
     """Carry out the study, write its files into ``folder``, and return what was found, in short.
 
-    summary.json: scheme -> task -> measure -> mean, ci95, n; study.csv the same. comparisons.json: differences paired by seed, what
-    foresight takes at equal sag, runs that fell or failed, the design. runs.csv: every run. pareto.csv and the
-    figures; table.md; findings.md.
+    summary.json: scheme -> task -> measure -> mean, ci95, n; study.csv the same. comparisons.json: differences paired
+    by seed, what foresight takes at equal sag, runs that fell or failed, the design. runs.csv: every run. pareto.csv
+    and the figures; table.md; findings.md.
     """
     folder.mkdir(parents=True, exist_ok=True)
     comparison = Comparison(results(schemes, size, sweep, folder))
@@ -59,11 +60,11 @@ def write_study(folder: Path, sweep: Sweeping, size: Size, schemes: Sequence[Sch
 
 def _about(size: Size, schemes: Sequence[Scheme]) -> list[str]:
     """Return how the numbers were made: seeds, schemes, tolerance, versions."""
-    packages = ("arthur-acausal", "casadi", "mujoco", "numpy", "scikit-sundae")
+    packages = ("casadi", "mujoco", "numpy", "scikit-sundae")
     return [
         f"arthur study powertrain --seeds {size.seeds} --few {size.few}; seeds from 0; rtol {TOLERANCE:g}",
         f"schemes: {', '.join(scheme.name for scheme in schemes)}",
-        ", ".join(f"{name} {version(name)}" for name in packages),
+        ", ".join([f"arthur-acausal {__version__}", *(f"{name} {version(name)}" for name in packages)]),
     ]
 
 

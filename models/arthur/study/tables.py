@@ -53,7 +53,7 @@ def write_rows(file: Path, rows: Sequence[Mapping[str, Any]]) -> None:
 
 
 def write_study_table(file: Path, comparison: Comparison, about: Sequence[str]) -> None:
-    """Write the main table as numbers, a row for each scheme, task and measure, below lines that say how it was made."""
+    """Write the main table as numbers, a row for each scheme, task and measure, below how it was made."""
     rows = [
         {"scheme": scheme, "task": task, "measure": measure, **numbers}
         for scheme, tasks in comparison.summary().items()
