@@ -5,10 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import asdict
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from arthur_acausal import __version__
 from arthur_acausal.models.arthur.study.comparison import Comparison
 from arthur_acausal.models.arthur.study.design import TOLERANCE, Size
 from arthur_acausal.models.arthur.study.findings import findings
@@ -17,10 +16,15 @@ from arthur_acausal.models.arthur.study.results import Sweeping, results
 from arthur_acausal.models.arthur.study.schemes import SCHEMES, Scheme
 from arthur_acausal.models.arthur.study.tables import (
     main_table,
+    overview,
     write_rows,
     write_runs,
     write_study_table,
 )
+
+
+SHOWN = ("electrical_W", "undershoot_bar_rms", "force_error_rms")
+"""Measures of the overview."""
 
 
 def write_study(folder: Path, sweep: Sweeping, size: Size, schemes: Sequence[Scheme] = SCHEMES) -> str:
@@ -47,25 +51,33 @@ def write_study(folder: Path, sweep: Sweeping, size: Size, schemes: Sequence[Sch
     write_runs(folder / "runs.csv", comparison)
     write_rows(folder / "pareto.csv", comparison.points())
     write_study_table(folder / "study.csv", comparison, _about(size, schemes))
-    (folder / "table.md").write_text(main_table(comparison) + "\n", encoding="utf-8")
+    tables = f"{overview(comparison, SHOWN)}\n\n{main_table(comparison)}\n"
+    (folder / "table.md").write_text(tables, encoding="utf-8")
     (folder / "findings.md").write_text(findings(comparison), encoding="utf-8")
     for name, figure in figures(comparison).items():
         figure.savefig(folder / f"{name}.png", dpi=110)
     bad = len(comparison.failures)
     return (
         f"{len(comparison.results)} runs, {bad} of them fell or failed; energy closes within {comparison.closure:.1e}\n"
-        f"{main_table(comparison)}\nwrote {folder}"
+        f"{overview(comparison, SHOWN)}\nwrote {folder}"
     )
 
 
 def _about(size: Size, schemes: Sequence[Scheme]) -> list[str]:
     """Return how the numbers were made: seeds, schemes, tolerance, versions."""
-    packages = ("casadi", "mujoco", "numpy", "scikit-sundae")
+    packages = ("arthur-acausal", "casadi", "mujoco", "numpy", "scikit-sundae")
     return [
         f"arthur study powertrain --seeds {size.seeds} --few {size.few}; seeds from 0; rtol {TOLERANCE:g}",
         f"schemes: {', '.join(scheme.name for scheme in schemes)}",
-        ", ".join([f"arthur-acausal {__version__}", *(f"{name} {version(name)}" for name in packages)]),
+        ", ".join(f"{name} {_version(name)}" for name in packages),
     ]
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:  # a source tree that is not installed
+        return "not installed"
 
 
 def _write_json(file: Path, value: object) -> None:

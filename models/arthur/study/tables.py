@@ -66,6 +66,27 @@ def write_study_table(file: Path, comparison: Comparison, about: Sequence[str]) 
     file.write_text(head + file.read_text(encoding="utf-8"), encoding="utf-8")
 
 
+def overview(comparison: Comparison, measures: Sequence[str]) -> str:
+    """Return a table of means for each measure as Markdown: a line a scheme, a column a task."""
+    parts = []
+    for name in measures:
+        title, form = COLUMNS[name]
+        lines = [
+            f"| {title} | " + " | ".join(comparison.tasks) + " |",
+            "|" + "---|" * (len(comparison.tasks) + 1),
+        ]
+        for scheme in comparison.schemes:
+            means = [comparison.mean(scheme, task, name).mean for task in comparison.tasks]
+            fell = [sum(r["fell"] == 1.0 for r in comparison.main(scheme, task)) for task in comparison.tasks]
+            cells = [
+                ("" if mean is None else form.format(mean)) + (f" ({n} fell)" if n else "")
+                for mean, n in zip(means, fell, strict=True)
+            ]
+            lines.append(f"| {scheme.name} | " + " | ".join(cells) + " |")
+        parts.append("\n".join(lines))
+    return "\n\n".join(parts)
+
+
 def main_table(comparison: Comparison) -> str:
     """Return the main table as Markdown: a section a task, a line a scheme."""
     head = "| scheme | runs | falls | " + " | ".join(title for title, _ in COLUMNS.values()) + " |"
