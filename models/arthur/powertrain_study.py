@@ -22,7 +22,6 @@ from arthur_acausal.models.arthur.study.tables import (
     write_study_table,
 )
 
-
 SHOWN = ("electrical_W", "undershoot_bar_rms", "force_error_rms")
 """Measures of the overview."""
 

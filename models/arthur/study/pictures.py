@@ -57,24 +57,29 @@ def fronts(comparison: Comparison) -> Figure:
             axes.set_xlabel(TITLES[name])
             axes.set_ylabel("battery power [W]")
             axes.set_ylim(bottom=0.0)
+            axes.set_xlim(left=0.0)
             axes.spines[["top", "right"]].set_visible(False)
             axes.set_title(f"{task}: down and left is better", fontsize=10.0)
-    figure.axes[0].legend(fontsize=8.0, title="ringed: own set point; cross: some fell", title_fontsize=8.0)
+    figure.axes[0].legend(fontsize=8.0, title="ringed: own set point", title_fontsize=8.0)
     return figure
 
 
 def _line(axes: Axes, k: int, scheme: Scheme, points: Sequence[Mapping[str, Any]], name: str) -> None:
-    x, y = ([p[what] for p in points] for what in (name, "electrical_W"))
-    dx, dy = ([p[f"{what}_ci95"] or 0.0 for p in points] for what in (name, "electrical_W"))
+    """Draw a scheme's points; where the robot fell there is none, but a word."""
+    upright = [p for p in points if not p["falls"]]
+    for p in points:
+        if p["falls"]:
+            told = f"{scheme.name}, {p['set_point']:g} {p['unit']}: {p['falls']} of {p['runs']} fell"
+            axes.annotate(told, (0.98, 0.02 + 0.05 * k), xycoords="axes fraction", ha="right", fontsize=7.0)
+    x, y = ([p[what] for p in upright] for what in (name, "electrical_W"))
+    dx, dy = ([p[f"{what}_ci95"] or 0.0 for p in upright] for what in (name, "electrical_W"))
     axes.errorbar(
         x, y, yerr=dy, xerr=dx, label=scheme.name, color=COLOURS[k], marker=MARKS[k], ms=4.0, lw=1.0,
         elinewidth=0.6,
     )  # fmt: skip
-    for p in points:
+    for p in upright:
         if p["set_point"] == scheme.set_point.values[0]:
             axes.plot(p[name], p["electrical_W"], "o", ms=10.0, mfc="none", mec=COLOURS[k])
-        if p["falls"]:
-            axes.plot(p[name], p["electrical_W"], "x", ms=10.0, color=COLOURS[k])
 
 
 def losses(comparison: Comparison, task: str) -> dict[str, dict[str, float]]:
