@@ -103,11 +103,11 @@ def test_pairing_takes_away_what_the_seeds_share() -> None:
 def test_power_at_equal_sag_is_read_off_the_others_curve() -> None:
     """The other takes 1000 W at 1 bar and 900 W at 3 bar: 950 W at 2 bar."""
     curve = [
-        result("pressure", 0, 135.0, electrical_W=1000.0, undershoot_bar_rms=1.0),
-        result("pressure", 0, 130.0, electrical_W=900.0, undershoot_bar_rms=3.0),
+        result("pressure", 0, 135.0, net_W=1000.0, undershoot_bar_rms=1.0),
+        result("pressure", 0, 130.0, net_W=900.0, undershoot_bar_rms=3.0),
     ]
-    at_two = result("foresight", 0, electrical_W=931.0, undershoot_bar_rms=2.0)
-    beyond = result("foresight", 0, electrical_W=931.0, undershoot_bar_rms=4.0)
+    at_two = result("foresight", 0, net_W=931.0, undershoot_bar_rms=2.0)
+    beyond = result("foresight", 0, net_W=931.0, undershoot_bar_rms=4.0)
     found = at_equal([at_two], curve, "undershoot_bar_rms")
     assert found.mean == pytest.approx(931.0 / 950.0 - 1.0)
     assert at_equal([beyond], curve, "undershoot_bar_rms").mean is None

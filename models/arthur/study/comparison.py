@@ -8,11 +8,11 @@ from functools import cached_property
 from typing import Any
 
 from arthur_acausal.models.arthur.study.design import VARIED, Case
-from arthur_acausal.models.arthur.study.results import Result
+from arthur_acausal.models.arthur.study.results import NET, Result
 from arthur_acausal.models.arthur.study.schemes import BASELINE, PRESENT, Scheme
 from arthur_acausal.models.arthur.study.statistics import Estimate, at_equal, estimate, front, paired, share
 
-COMPARED = ("electrical_W", "relief_W", "undershoot_bar_rms", "undershoot_bar_max", "force_error_rms")
+COMPARED = ("electrical_W", NET, "relief_W", "undershoot_bar_rms", "undershoot_bar_max", "force_error_rms")
 """Measures whose differences are told."""
 FRONTS = ("undershoot_bar_rms", "force_error_rms")
 """What stands against the electrical power in the pictures of the fronts."""
@@ -73,7 +73,7 @@ class Comparison:
                     if scheme.name == other or not these or not those:
                         continue
                     told = {name: paired(these, those, name).as_data() for name in COMPARED}
-                    saved = paired(these, those, "electrical_W", relative=True).as_data()
+                    saved = paired(these, those, NET, relative=True).as_data()
                     rows.append(
                         {"scheme": scheme.name, "less": other, "task": task, "relative_W": saved} | told
                     )

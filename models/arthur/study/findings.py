@@ -8,7 +8,7 @@ from typing import Any
 from arthur_acausal.models.arthur.study.comparison import TRIED, Comparison
 from arthur_acausal.models.arthur.study.design import ERRORS, HORIZONS
 from arthur_acausal.models.arthur.study.measures import WANTED
-from arthur_acausal.models.arthur.study.results import Result
+from arthur_acausal.models.arthur.study.results import NET, Result
 from arthur_acausal.models.arthur.study.schemes import BASELINE, PRESENT, Scheme
 from arthur_acausal.models.arthur.study.statistics import Estimate, paired
 from arthur_acausal.models.arthur.study.tables import main_table, text
@@ -46,7 +46,7 @@ def _sound(comparison: Comparison) -> str:
     return (
         f"{len(comparison.results)} runs; {fell} fell, {failed} failed. In the worst run the energy's balance leaves "
         f"{comparison.closure:.1e} of the input. Sag is the depth of the supply pressure below {WANTED:g} bar, for all "
-        "schemes alike."
+        "schemes alike. Differences of power are of what is taken less what is stored meanwhile."
     )
 
 
@@ -62,9 +62,7 @@ def _against_baseline(comparison: Comparison) -> str:
             if scheme.name == BASELINE or not these or not those:
                 continue
             kind = "relief, standing" if task == "stand" else "relief, moving"
-            relief, power = (
-                paired(these, those, name, relative=True) for name in ("relief_W", "electrical_W")
-            )
+            relief, power = (paired(these, those, name, relative=True) for name in ("relief_W", NET))
             cells = [*_judged(relief, EXPECTED[kind]), *_judged(power, EXPECTED["electrical"])]
             lines.append(f"| {scheme.name} | {task} | " + " | ".join(cells) + " |")
     if len(lines) == 2:
@@ -93,7 +91,7 @@ def _against_present(comparison: Comparison, foreseeing: Sequence[Scheme]) -> st
             these, those = comparison.main(scheme, task), comparison.main(PRESENT, task)
             if not these or not those:
                 continue
-            power = paired(these, those, "electrical_W", relative=True)
+            power = paired(these, those, NET, relative=True)
             sag, force = (paired(these, those, name) for name in ("undershoot_bar_rms", "force_error_rms"))
             lines.append(
                 f"- {scheme.name}, {task}: {_verdict(power, sag)}. Power {text(power, '{:+.2%}')}, sag "
@@ -168,7 +166,7 @@ def _accumulator(comparison: Comparison) -> str:
             those = comparison.main(scheme, task)
             relief, power, sag = (
                 paired(those, bare, name, relative=name != "undershoot_bar_rms")
-                for name in ("relief_W", "electrical_W", "undershoot_bar_rms")
+                for name in ("relief_W", NET, "undershoot_bar_rms")
             )
             judged = ""
             if scheme.name == "pressure" and task != "stand" and relief.mean is not None:
@@ -197,7 +195,7 @@ def _varied(
         cells: list[Any] = []
         for value in sorted(others):
             if runs := comparison.changed(scheme, name, value):
-                power = paired(runs, base, "electrical_W", relative=True)
+                power = paired(runs, base, NET, relative=True)
                 sag = paired(runs, base, "undershoot_bar_rms")
                 cells.append(
                     f"{form.format(value * unit)}: {text(power, '{:+.2%}')} power, {text(sag, '{:+.2f}')} bar sag"

@@ -26,6 +26,8 @@ from arthur_acausal.models.arthur.study.trial import Trial
 Sweeping = Callable[[str, Mapping[str, Any]], Mapping[str, Sequence[Any]]]
 """Carries out a sweep of `Trial`, given a name and what `arthur_acausal.sweep.sweep` takes; returns its table."""
 PREFIX = "measures."
+NET = "net_W"
+"""Power less what is stored meanwhile in rotor, accumulator and chambers: that differs with where a stride is cut."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +74,8 @@ def _rows(scheme: Scheme, cases: Sequence[Case], table: Mapping[str, Sequence[An
     for k, number in enumerate(table["run"]):
         values = {name.removeprefix(PREFIX): float(table[name][k]) for name in names}
         kept = {name: value for name, value in values.items() if value == value}
+        if "stored_W" in kept:
+            kept[NET] = kept["electrical_W"] - kept["stored_W"]
         yield Result(scheme, cases[int(number)], str(table["status"][k]), str(table["error"][k]), kept)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from arthur_acausal.models.arthur.study.results import Result
+from arthur_acausal.models.arthur.study.results import NET, Result
 
 LEVEL = 0.95
 
@@ -72,7 +72,7 @@ def paired(
 
 
 def at_equal(these: Iterable[Result], curve: Sequence[Result], measure: str) -> Estimate:
-    """Return the difference of electrical power where a measure is equal, as a share, paired by seed.
+    """Return the difference of net power where a measure is equal, as a share, paired by seed.
 
     ``curve``: the runs of another scheme at several set points, linear in between; a seed at which the curve does not
     reach the measure of these is left out.
@@ -80,14 +80,12 @@ def at_equal(these: Iterable[Result], curve: Sequence[Result], measure: str) -> 
     differences = []
     for r in these:
         points = sorted(
-            (c[measure], c["electrical_W"])
-            for c in curve
-            if c.case.seed == r.case.seed and isfinite(c[measure])
+            (c[measure], c[NET]) for c in curve if c.case.seed == r.case.seed and isfinite(c[measure])
         )
         if len(points) > 1 and points[0][0] <= r[measure] <= points[-1][0]:
             x, y = zip(*points, strict=True)
             there = float(np.interp(r[measure], x, y))
-            differences.append(r["electrical_W"] / there - 1.0)
+            differences.append(r[NET] / there - 1.0)
     return estimate(differences)
 
 

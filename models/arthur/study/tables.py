@@ -12,6 +12,7 @@ from arthur_acausal.models.arthur.study.statistics import Estimate
 
 COLUMNS = {
     "electrical_W": ("battery W", "{:.0f}"),
+    "net_W": ("less stored W", "{:.0f}"),
     "relief_W": ("relief W", "{:.0f}"),
     "valves_W": ("throttling W", "{:.0f}"),
     "pump_leakage_W": ("leakage W", "{:.0f}"),
