@@ -19,7 +19,7 @@ HORIZONS = (0.3, 0.0, 0.06, 0.15)
 ERRORS = (0.0, -0.2, 0.2)
 """By how much the model of a scheme that foresees errs [1]; see the power unit."""
 TOLERANCE = 1e-3
-"""Relative, of the integration: powers are the same as with 1e-4 within 2e-5, energy closes within 2e-6."""
+"""Relative, of the integration: powers are those with 1e-4 within 3e-4, the energy closes within 1e-4."""
 VARIED = "trot 0.5"
 """Task at which horizons, errors and set points are varied."""
 

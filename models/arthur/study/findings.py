@@ -114,7 +114,9 @@ def _verdict(power: Estimate, sag: Estimate) -> str:
     if sag_less and not power_more:
         return "it pays by less sag"
     if power_less or sag_less:
-        return "it trades power for sag" if sag_less else "it saves power by letting the pressure sag"
+        return (
+            "it takes more power for less sag" if sag_less else "it saves power by letting the pressure sag"
+        )
     if power_more or sag_more:
         return "it does not pay"
     return "no difference is certain"
