@@ -213,9 +213,10 @@ def main() -> None:
                 trial = Trial(law, demand, accumulator)
                 outcomes = search(trial, ranges, trial.defaults(), options.runs, options.seed)
                 first, best = outcomes[0], best_of(outcomes)
+                failed = sum(outcome.cost == float("inf") for outcome in outcomes)
                 print(
                     f"{law}, accumulator {accumulator}: {best.power:.1f} W, {best.shortfall / 1e5:.2f} bar short, "
-                    f"cost {best.cost:.1f} W; untuned {first.cost:.1f} W",
+                    f"cost {best.cost:.1f} W; untuned {first.cost:.1f} W; {failed} of {len(outcomes)} runs failed",
                     flush=True,
                 )
                 for name, value in best.parameters.items():
