@@ -182,7 +182,7 @@ TUNED = Path(__file__).with_name("tuned.csv")
 
 
 def tuned(law: PumpLaw, accumulator: bool = True, path: Path = TUNED) -> dict[str, float]:
-    """Return the parameters of ``unit.control`` that the search has found."""
+    """Return the parameters of ``unit.control`` that the search has found; none where it was not carried out."""
     with path.open(newline="", encoding="utf-8") as lines:
         rows = [row for row in csv.DictReader(lines) if row["pump"] == law]
     return {r["parameter"]: float(r["value"]) for r in rows if r["accumulator"] == str(accumulator)}

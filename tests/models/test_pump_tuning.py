@@ -10,13 +10,16 @@ import pytest
 
 from arthur_acausal.components.hydraulic import GPM
 from arthur_acausal.models.arthur.demand import Demand
+from arthur_acausal.models.arthur.power_unit import PumpLaw
 from arthur_acausal.models.arthur.pump_tuning import (
     PRICE,
+    RANGES,
     Outcome,
     Range,
     Trial,
     best_of,
     search,
+    tuned,
 )
 
 
@@ -69,3 +72,13 @@ def test_a_constant_speed_costs_power_or_pressure() -> None:
     assert slow.shortfall > 5e5 > right.shortfall >= fast.shortfall == 0.0
     assert slow.cost == slow.power + PRICE * slow.shortfall / 1e5
     assert right.cost < min(slow.cost, fast.cost)
+
+
+def test_what_was_found_lies_within_the_ranges() -> None:
+    """Of each controller that was tuned all parameters are there; the others keep their defaults."""
+    found: dict[PumpLaw, dict[str, float]] = {law: tuned(law) for law in RANGES}
+    assert found["foresight"] and found["pressure"]
+    for law, values in found.items():
+        assert not values or values.keys() == RANGES[law].keys()
+        for name, value in values.items():
+            assert RANGES[law][name].low * 0.999 <= value <= RANGES[law][name].high * 1.001
