@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from arthur_acausal.codegen.cache import make_key
-from arthur_acausal.sweep.execute import COUNTS, Outcome, described, execute, options_of, reduced, system_of
+from arthur_acausal.sweep.execute import (
+    COUNTS,
+    KEPT_SYSTEMS,
+    Outcome,
+    described,
+    execute,
+    options_of,
+    reduced,
+    system_of,
+)
 from arthur_acausal.sweep.job import Job, Signal, Values
 
 if TYPE_CHECKING:
@@ -32,14 +42,18 @@ _DIRECT: dict[str, Direct | None] = {}
 def execute_many(job: Job, values: Sequence[Values], timeout: float | None = None) -> list[Outcome]:
     """Simulate several runs of a job; see `execute`."""
     direct = _direct_of(job) if job.batch > 1 else None
-    found = direct.run(values) if direct is not None else [None] * len(values)
+    found: Sequence[Outcome | None] = [None] * len(values)
+    if direct is not None:
+        with suppress(Exception):  # of the user's own functions: made one by one, it is told of which run
+            found = direct.run(values)
     return [done or execute(job, one, timeout) for done, one in zip(found, values, strict=True)]
 
 
 def _direct_of(job: Job) -> Direct | None:
     """Return what makes the runs of a job, None where the engine does not fit; made once for each of the last jobs."""
     if job.digest not in _DIRECT:
-        _DIRECT.clear()
+        while len(_DIRECT) >= KEPT_SYSTEMS:
+            del _DIRECT[next(iter(_DIRECT))]
         _DIRECT[job.digest] = Direct.of(job, system_of(job).dae)
     return _DIRECT[job.digest]
 
@@ -67,7 +81,6 @@ class Direct:
         self._notes = f"start values that nothing uses: {listed(ignored, '; ')}" if ignored else ""
         self._columns = self._simple()
         self._platform = make_key()[:12]
-        self._mapped: dict[tuple[str, int], Any] = {}
 
     @classmethod
     def of(cls, job: Job, dae: CompiledDAE) -> Direct | None:

@@ -14,6 +14,7 @@ from arthur_acausal import (
     Component,
     Equations,
     Real,
+    Solution,
     der,
     discrete,
     parameter,
@@ -125,6 +126,13 @@ def misbehave(t: float, inputs: NDArray[np.float64]) -> NDArray[np.float64]:
             os.kill(os.getpid(), signal.SIGKILL)
     clock.sleep(seconds)
     return np.zeros(1)
+
+
+def refused(solution: Solution) -> float:
+    """A reduction that fails for some runs."""
+    if solution["tau"][0] > 1.5:
+        raise ZeroDivisionError("no tau above 1.5")
+    return 1.0
 
 
 class Misbehaving(Component):

@@ -132,6 +132,15 @@ def test_runs_without_events_go_by_the_engine_in_c(tmp_path: Path) -> None:
     np.testing.assert_allclose(a, b, atol=1e-5)
 
 
+def test_a_reduction_that_fails_is_a_failure_of_its_run(tmp_path: Path) -> None:
+    output = {"variables": ["x"], "reductions": [f"{MODELS}:refused"]}
+    tally = swept(tmp_path / "d", vary={"tau": "1,2,1.2"}, output=output)
+    frame = table(tmp_path / "d")
+    assert (tally.ok, tally.retried) == (2, 0)
+    assert frame["status"].tolist() == ["ok", "failed", "ok"]
+    assert frame["error"][1] == "ZeroDivisionError: no tau above 1.5"
+
+
 def test_structures_of_parts(tmp_path: Path) -> None:
     given = plan("Parted", vary={"chain.n": "1,2,3", "chain.tau": "1,2"}, output={"variables": ["chain.x"]})
     tally = carry_out(given, tmp_path / "d", How(workers=1))
