@@ -9,7 +9,7 @@ from typing import cast
 from arthur_acausal import UsageError
 from arthur_acausal.models.arthur.demand import Demand
 from arthur_acausal.models.arthur.power_unit import PumpLaw
-from arthur_acausal.models.arthur.pump_tuning import TUNED, tuned
+from arthur_acausal.models.arthur.pump_tuning import tuned
 from arthur_acausal.models.arthur.quadruped_options import QuadrupedOptions
 
 RPM, BAR = 2 * pi / 60, 1e5
@@ -58,8 +58,7 @@ class Scheme:
 
     def tuning(self, accumulator: bool) -> dict[str, float]:
         """Return the parameters that the search has found, the same for all of a scheme's runs, by path."""
-        known = tuned(self._law, accumulator) if TUNED.exists() else {}
-        found = {f"unit.control.{name}": x for name, x in known.items()}
+        found = {f"unit.control.{name}": x for name, x in tuned(self._law, accumulator).items()}
         return {path: value for path, value in found.items() if path != self.set_point.path}
 
     @property
