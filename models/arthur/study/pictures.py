@@ -122,6 +122,7 @@ def varied(comparison: Comparison, name: str, values: Sequence[float], title: st
             )  # fmt: skip
         axes.set_xlabel(title)
         axes.set_ylabel(label)
+        axes.set_ylim(bottom=0.0)
         axes.spines[["top", "right"]].set_visible(False)
     figure.axes[0].legend(fontsize=8.0)
     return figure
