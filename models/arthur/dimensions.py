@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import acos
+from math import acos, cos, sin
 
 LEGS = ("FL", "FR", "RL", "RR")
 """Front left, front right, rear left, rear right: x points forward, y to the left, z up."""
@@ -74,6 +75,22 @@ class Dimensions:
         knee = -acos((height**2 - a**2 - b**2) / (2 * a * b))
         hip = acos((height**2 + a**2 - b**2) / (2 * a * height))
         return 0.0, hip, knee
+
+    def standing(self, shifts: Sequence[float]) -> list[float]:
+        """Return angles [rad] of a robot that stands, in the order of JOINT_NAMES, displaced by ``shifts`` [rad].
+
+        There are two for each leg, of abduction and hip. The knees make up for them so that all feet are as high as
+        in `stand`: on feet that are not, a robot this stiff would rock, and in no position be in balance.
+        """
+        angles: list[float] = []
+        below = self.stand_height - self.foot_radius
+        _, straight, _ = self.stand
+        for k, leg in enumerate(LEGS):
+            abduction, hip = shifts[2 * k], straight + shifts[2 * k + 1]
+            length = (below + side_of(leg) * self.offset * sin(abduction)) / cos(abduction)
+            calf = -acos((length - self.thigh_length * cos(hip)) / self.calf_length)
+            angles += [abduction, hip, calf - hip]
+        return angles
 
 
 def side_of(leg: str) -> int:

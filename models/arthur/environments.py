@@ -165,8 +165,8 @@ class WalkingEnv(ModelEnv):
 
 
 def displaced(rng: np.random.Generator) -> dict[str, float]:
-    """Return angles of the joints at the start, each up to 0.02 rad from that of standing."""
-    pose = Dimensions().stand * len(LEGS) + rng.uniform(-0.02, 0.02, len(JOINT_NAMES))
+    """Return angles of the joints at the start, up to 0.02 rad from those of standing."""
+    pose = Dimensions().standing(rng.uniform(-0.02, 0.02, 2 * len(LEGS)).tolist())
     return {f"body.{joint}_phi": float(angle) for joint, angle in zip(JOINT_NAMES, pose, strict=True)}
 
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, Dimensions
+from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimensions
 from arthur_acausal.models.arthur.study.schemes import Scheme
 from arthur_acausal.models.arthur.study.tasks import TASK, TASKS, Task
 
 DISPLACED = 0.02
-"""Most that a joint is displaced at the start [rad], by the seed."""
+"""Most that abduction and hip are displaced at the start [rad], by the seed."""
 HORIZONS = (0.3, 0.0, 0.06, 0.15)
 """How far ahead the plan is used [s]; the first is the schemes' own."""
 ERRORS = (0.0, -0.2, 0.2)
@@ -156,5 +156,5 @@ def specification(scheme: Scheme, cases: Sequence[Case], demands: Sequence[str] 
 
 def pose(seed: int) -> list[float]:
     """Return the joints' angles at the start [rad]: standing, displaced by the seed."""
-    shift = np.random.default_rng([seed, 1]).uniform(-DISPLACED, DISPLACED, len(JOINT_NAMES))
-    return [float(x) for x in np.array(Dimensions().stand * 4) + shift]
+    shifts = np.random.default_rng([seed, 1]).uniform(-DISPLACED, DISPLACED, 2 * len(LEGS))
+    return Dimensions().standing(shifts.tolist())

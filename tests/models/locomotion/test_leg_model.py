@@ -84,3 +84,17 @@ def test_a_foot_out_of_reach_is_pointed_at() -> None:
     assert np.isfinite(rate).all()
     foot = Kernel(kinematics(ROBOT))(q, rate, np.array([0.0, 0.0, 1.0]))[0].reshape(4, 3)
     assert foot[:, 2] == pytest.approx(-0.98 * 0.32, abs=1e-12)
+
+
+def test_a_displaced_robot_stands_on_feet_of_one_height() -> None:
+    model = mujoco.MjModel.from_xml_string(quadruped_mjcf())
+    data = mujoco.MjData(model)
+    shifts = np.random.default_rng(5).uniform(-0.05, 0.05, 8)
+    angles = np.array(ROBOT.standing(shifts.tolist()))
+    data.qpos[7:] = angles
+    data.qpos[2] = ROBOT.stand_height
+    mujoco.mj_forward(model, data)
+    heights = [data.site(f"{leg}_foot").xpos[2] for leg in LEGS]
+    assert heights == pytest.approx([ROBOT.foot_radius] * 4, abs=1e-12)
+    assert angles.reshape(4, 3)[:, :2] == pytest.approx(ROBOT.stand[:2] + shifts.reshape(4, 2), abs=1e-15)
+    assert ROBOT.standing([0.0] * 8) == pytest.approx(ROBOT.stand * 4, abs=1e-12)
