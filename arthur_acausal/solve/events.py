@@ -191,7 +191,7 @@ class EventIteration:
         evaluator.t[0], evaluator.y[:] = t, y
         truth = self._modes.truth(g)
         for k, value in flagged.items():
-            if abs(g[k]) <= trust * self._options.rtol * self._scale[k]:
+            if trust == np.inf or abs(g[k]) <= trust * self._options.rtol * self._scale[k]:
                 truth[k] = value
         return truth
 
