@@ -72,8 +72,8 @@ def signals(solution: Solution, name: str) -> np.ndarray:
 
 
 def test_unknowns() -> None:
-    """Five of an actuator and two of its joint; seven of the unit; current and filter are implicit."""
-    assert sprung().statistics.unknowns == 12 * 7 + 7 + 2
+    """Six of an actuator and two of its joint; seven of the unit; current and filter are implicit."""
+    assert sprung().statistics.unknowns == 12 * 8 + 7 + 2
 
 
 def test_all_forces_follow() -> None:
