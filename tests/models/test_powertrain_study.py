@@ -59,6 +59,13 @@ def test_a_sweep_has_a_row_for_each_case(scheme: Any, tmp_path: Path) -> None:
     assert len({run.values["body.FL_hip_phi"] for run in table}) == len({case.seed for case in cases})
 
 
+@pytest.mark.parametrize("size", [QUICK, Size()], ids=["quick", "full"])
+def test_no_case_is_run_twice(size: Size) -> None:
+    for scheme in SCHEMES:
+        cases = [case for part in PARTS.values() for case in part(scheme, size)]
+        assert len(set(map(repr, cases))) == len(cases), scheme.name
+
+
 def test_the_controller_does_the_task_that_its_inputs_name() -> None:
     rng = np.random.default_rng(0)
     sensors = rng.normal(0.0, 0.01, N_INPUTS + 12)

@@ -112,7 +112,8 @@ PARTS = {"main": main_cases, "varied": varied_cases, "bare": bare_cases}
 
 
 def spread(values: Sequence[float], count: int) -> list[float]:
-    """Return so many of some values: the first, the last, and those evenly between them."""
+    """Return so many of some values, at most all: the first, the last, and those evenly between them."""
+    count = min(count, len(values))
     if count < 2:
         return list(values[:1])
     return [values[round(k * (len(values) - 1) / (count - 1))] for k in range(count)]
