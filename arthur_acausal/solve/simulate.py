@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -54,14 +55,8 @@ def simulate(
     chosen, first, last = options or SolverOptions(), float(start_time), float(stop_time)
     run = HybridRun(dae, first, last, chosen, inputs or {}, parameters, start, progress, grid, begin)
     run.initialize()
-    try:
+    with keeping(run):
         return run.integrate()
-    except ArthurError as error:
-        failure = error if isinstance(error, SolverFailure) else as_failure(error)
-        failure.trajectory = run.trajectory("failed", str(failure))
-        raise failure from None
-    except KeyboardInterrupt:
-        raise SolverInterrupted(run.trajectory("interrupted", "interrupted")) from None
 
 
 def initial_point(
@@ -88,7 +83,20 @@ def check_times(start_time: float, stop_time: float) -> None:
         raise UsageError(f"stop_time {stop_time} is not a finite time after start_time {start_time}")
 
 
-def as_failure(error: ArthurError) -> SolverFailure:
+@contextmanager
+def keeping(run: HybridRun) -> Iterator[None]:
+    """Let what ends an integration early hold what was computed: SolverFailure, or SolverInterrupted for Ctrl-C."""
+    try:
+        yield
+    except ArthurError as error:
+        failure = error if isinstance(error, SolverFailure) else _as_failure(error)
+        failure.trajectory = run.trajectory("failed", str(failure))
+        raise failure from None
+    except KeyboardInterrupt:
+        raise SolverInterrupted(run.trajectory("interrupted", "interrupted")) from None
+
+
+def _as_failure(error: ArthurError) -> SolverFailure:
     """An error at an event, as the end of the run that it is."""
     return SolverFailure(
         error.message,

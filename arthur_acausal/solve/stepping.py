@@ -9,13 +9,12 @@ import numpy as np
 
 from arthur_acausal.codegen.compiled import CompiledDAE
 from arthur_acausal.codegen.threads import one_thread
-from arthur_acausal.errors import ArthurError, UsageError, nearest
-from arthur_acausal.solve.failure import SolverFailure, SolverInterrupted
+from arthur_acausal.errors import UsageError, nearest
 from arthur_acausal.solve.hybrid import HybridRun
 from arthur_acausal.solve.inputs import Input
 from arthur_acausal.solve.options import SolverOptions
 from arthur_acausal.solve.protocol import FloatArray
-from arthur_acausal.solve.simulate import as_failure, check_times
+from arthur_acausal.solve.simulate import check_times, keeping
 from arthur_acausal.solve.trajectory import Trajectory
 
 
@@ -44,7 +43,7 @@ class Stepper:
         begin: Trajectory | None = None,
     ) -> None:
         check_times(start_time, stop_time)
-        self._dae, self._stop = dae, float(stop_time)
+        self._dae = dae
         given = inputs or {}
         self._free = {
             path: k for k, path in enumerate(dae.u_paths) if isinstance(given.get(path, 0.0), int | float)
@@ -53,7 +52,7 @@ class Stepper:
         self._run = HybridRun(
             dae,
             float(start_time),
-            self._stop,
+            float(stop_time),
             options or SolverOptions(),
             given,
             parameters,
@@ -65,7 +64,8 @@ class Stepper:
         self._run.initialize()
         self.begin: Trajectory = self._run.trajectory("finished", "")
         """The consistent values at the start, which another run of the same model can be given as ``begin``."""
-        self._run.depart()
+        with keeping(self._run):
+            self._run.depart()
 
     @property
     def t(self) -> float:
@@ -79,7 +79,11 @@ class Stepper:
         return None if ended is None else ended[1] or ended[0]
 
     def set(self, inputs: Mapping[str, float]) -> None:
-        """Let inputs, by path, have these values from now on; UsageError for what is none or varies by itself."""
+        """Let inputs, by path, have these values from now on.
+
+        Raises UsageError for what is no input or varies by itself, SolverFailure where the model has no solution with
+        these values.
+        """
         for path in inputs:
             if path not in self._free:
                 raise UsageError(
@@ -89,7 +93,8 @@ class Stepper:
         values = {self._free[path]: float(value) for path, value in inputs.items()}
         if not all(np.isfinite(value) for value in values.values()):
             raise UsageError(f"inputs must be finite, not {dict(inputs)}")
-        self._run.impose(values)
+        with keeping(self._run):
+            self._run.impose(values)
 
     @one_thread(scipy=True)
     def advance(self, until: float) -> None:
@@ -97,14 +102,8 @@ class Stepper:
 
         Raises SolverFailure, which holds the trajectory so far, where the integration cannot go on.
         """
-        try:
+        with keeping(self._run):
             self._run.advance(float(until))
-        except ArthurError as error:
-            failure = error if isinstance(error, SolverFailure) else as_failure(error)
-            failure.trajectory = self._run.trajectory("failed", str(failure))
-            raise failure from None
-        except KeyboardInterrupt:
-            raise SolverInterrupted(self._run.trajectory("interrupted", "interrupted")) from None
 
     def observe(self, paths: Sequence[str]) -> FloatArray:
         """Return the present values (n,) of variables by path, in SI."""

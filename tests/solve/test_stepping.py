@@ -110,3 +110,24 @@ def test_a_failure_holds_what_was_computed() -> None:
     with pytest.raises(SimulationError) as caught:
         run.advance(1.5)
     assert caught.value.trajectory.t[-1] <= 1.0  # type: ignore[attr-defined]
+
+
+class Root(Component):
+    """x' = y, where y^2 = u: nothing for u < 0."""
+
+    u: Real = real_input("1", default=1.0)
+    tau: Real = parameter("s", default=1.0)
+    x: Real = variable("1", start=0.0, fixed=True)
+    y: Real = variable("1", start=1.0)
+
+    def equations(self) -> Equations:
+        yield self.tau * der(self.x) == self.y
+        yield self.y**2 == self.u
+
+
+def test_a_jump_without_a_solution_holds_what_was_computed() -> None:
+    run = translate(Root()).stepper(2.0)
+    run.advance(0.5)
+    with pytest.raises(SimulationError) as caught:
+        run.set({"u": -1.0})
+    assert caught.value.trajectory.t[-1] == pytest.approx(0.5)  # type: ignore[attr-defined]
