@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from arthur_acausal import ArthurError, Solution, SolverOptions, translate
-from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, Dimensions
+from arthur_acausal.models.arthur.displaced import start_of
 from arthur_acausal.models.arthur.figures import headings
 from arthur_acausal.models.arthur.locomotion.commands import Command
 from arthur_acausal.models.arthur.quadruped import Quadruped
@@ -19,8 +19,6 @@ from benchmarks.locomotion import CALM, CRUISING, Scenario
 
 LIMITS = {"speed_error": 0.1, "max_roll_deg": 5.0, "max_pitch_deg": 5.0, "slip_share": 0.05, "v_y": 0.1}
 TRACKING = 0.1
-DISPLACED = 0.02
-"""Most that abduction and hip are displaced at the start [rad]."""
 POINTS = 200
 """Times a second at which the figures are taken."""
 
@@ -88,13 +86,10 @@ def robot(scenario: Scenario, seed: int) -> Quadruped:
 def run(scenario: Scenario, seed: int, rtol: float) -> Walked:
     """Run a scenario with one seed of noise and start; where the model cannot be solved that is its message."""
     model = translate(robot(scenario, seed))
-    shifts = np.random.default_rng([seed, 1]).uniform(-DISPLACED, DISPLACED, 8)
-    pose = Dimensions().standing(shifts.tolist())
-    start = {f"body.{joint}_phi": float(angle) for joint, angle in zip(JOINT_NAMES, pose, strict=True)}
     options = SolverOptions(rtol=rtol, intervals=1)  # each control tick gives two rows
     begin = time.process_time()
     try:
-        solution = model.simulate(scenario.duration, start=start, options=options)
+        solution = model.simulate(scenario.duration, start=start_of(seed), options=options)
     except ArthurError as error:
         return _failed(scenario, seed, str(error))
     spent = time.process_time() - begin

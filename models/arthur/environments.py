@@ -11,7 +11,8 @@ import numpy as np
 from arthur_acausal import Equations, Real, SolverOptions, Table, connect, real_input, translate
 from arthur_acausal.learning import Channel, Episode, ModelEnv
 from arthur_acausal.models.arthur.demand import Demand
-from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimensions
+from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS
+from arthur_acausal.models.arthur.displaced import displaced
 from arthur_acausal.models.arthur.pump_plant import PumpPlant
 from arthur_acausal.models.arthur.quadruped import Quadruped
 from arthur_acausal.models.arthur.quadruped_options import QuadrupedOptions
@@ -152,7 +153,7 @@ class WalkingEnv(ModelEnv):
         )
 
     def episode(self, rng: np.random.Generator) -> Episode:
-        """Begin with the joints displaced by up to 0.02 rad."""
+        """Begin with the legs displaced by up to 0.02 rad."""
         return Episode(start=displaced(rng))
 
     def reward(self, before: Mapping[str, float], after: Mapping[str, float]) -> float:
@@ -162,12 +163,6 @@ class WalkingEnv(ModelEnv):
     def failed(self) -> float:
         """A run that cannot go on counts as a fall."""
         return -100.0
-
-
-def displaced(rng: np.random.Generator) -> dict[str, float]:
-    """Return angles of the joints at the start, up to 0.02 rad from those of standing."""
-    pose = Dimensions().standing(rng.uniform(-0.02, 0.02, 2 * len(LEGS)).tolist())
-    return {f"body.{joint}_phi": float(angle) for joint, angle in zip(JOINT_NAMES, pose, strict=True)}
 
 
 class ForceDrivenQuadruped(Quadruped):
@@ -209,7 +204,7 @@ class QuadrupedEnv(ModelEnv):
         )
 
     def episode(self, rng: np.random.Generator) -> Episode:
-        """Begin with the joints displaced by up to 0.02 rad."""
+        """Begin with the legs displaced by up to 0.02 rad."""
         return Episode(start=displaced(rng))
 
     def reward(self, before: Mapping[str, float], after: Mapping[str, float]) -> float:

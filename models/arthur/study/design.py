@@ -6,14 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-from arthur_acausal.models.arthur.dimensions import JOINT_NAMES, LEGS, Dimensions
+from arthur_acausal.models.arthur.displaced import start_of
 from arthur_acausal.models.arthur.study.schemes import Scheme
 from arthur_acausal.models.arthur.study.tasks import TASK, TASKS, Task
 
-DISPLACED = 0.02
-"""Most that abduction and hip are displaced at the start [rad], by the seed."""
 HORIZONS = (0.3, 0.0, 0.06, 0.15)
 """How far ahead the plan is used [s]; the first is the schemes' own."""
 ERRORS = (0.0, -0.2, 0.2)
@@ -139,8 +135,8 @@ def specification(scheme: Scheme, cases: Sequence[Case], demands: Sequence[str] 
         vary["unit.model_error"] = [case.error for case in cases]
     if demands:
         vary["demand"] = list(demands)
-    poses = [pose(case.seed) for case in cases]
-    vary |= {f"body.{joint}_phi": [p[i] for p in poses] for i, joint in enumerate(JOINT_NAMES)}
+    starts = [start_of(case.seed) for case in cases]
+    vary |= {path: [start[path] for start in starts] for path in starts[0]}
     return {
         "vary": vary,
         "method": "zip",
@@ -153,9 +149,3 @@ def specification(scheme: Scheme, cases: Sequence[Case], demands: Sequence[str] 
             "reductions": ["arthur_acausal.models.arthur.study.measures:measures"],
         },
     }
-
-
-def pose(seed: int) -> list[float]:
-    """Return the joints' angles at the start [rad]: standing, displaced by the seed."""
-    shifts = np.random.default_rng([seed, 1]).uniform(-DISPLACED, DISPLACED, 2 * len(LEGS))
-    return Dimensions().standing(shifts.tolist())

@@ -10,13 +10,12 @@ from typing import Any
 
 from arthur_acausal import Solution, SolverOptions, translate
 from arthur_acausal.models.arthur.demand import Demand
-from arthur_acausal.models.arthur.dimensions import JOINT_NAMES
+from arthur_acausal.models.arthur.displaced import start_of
 from arthur_acausal.models.arthur.study.design import (
     PARTS,
     TOLERANCE,
     Case,
     Size,
-    pose,
     specification,
 )
 from arthur_acausal.models.arthur.study.schemes import PRESENT, Scheme, scheme_named
@@ -94,8 +93,7 @@ def run(case: Case) -> Solution:
     """Return the run of a case by the scheme PRESENT."""
     task = case.task
     model = translate(Trial(scheme=PRESENT, terrain="slope" if task.slope else "flat"))
-    start = {f"body.{joint}_phi": x for joint, x in zip(JOINT_NAMES, pose(case.seed), strict=True)}
     chosen = {"task": TASKS.index(task), "noise": case.seed, "duration": task.end, "shove.F": task.push}
     chosen |= scheme_named(PRESENT).tuning(accumulator=True)
     options = SolverOptions(rtol=TOLERANCE, output_interval=0.001)
-    return model.simulate(task.end + 0.1, parameters=chosen, start=start, options=options)
+    return model.simulate(task.end + 0.1, parameters=chosen, start=start_of(case.seed), options=options)
